@@ -13,6 +13,7 @@
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/point_numbers.hpp"
+#include "limber/contact/pressure_sum.hpp"
 #include "limber/contact/shape_measures.hpp"
 #include "limber/contact/touch.hpp"
 
@@ -314,10 +315,7 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
   set_rates(bodies, touch, reading);
   reading.energy = touch.pads.energy;
   double largest = -1.0;
-  Vector3 centre = Vector3::Zero();  // from the first
-  const Vector3 near = touch.points.all().empty()
-                           ? Vector3(Vector3::Zero())
-                           : meetings[touch.points.all().front().feature].p_W;
+  PressureSum pressure;
   for (const TouchingPoint& at : touch.points.all()) {
     const Meeting& meeting = meetings[at.feature];
     const PointResponse response =
@@ -330,21 +328,15 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
     reading.area += at.elastic.area;
     reading.depth = std::max(reading.depth, meeting.depth);
     reading.slips = reading.slips || response.slips;
-    const Vector3 place = meeting.p_W - near;
-    centre += response.normal_force * place;
-    reading.spread_W += response.normal_force *
-                        (find_spread(at.elastic.area, meeting.normal_W) +
-                         place * place.transpose());
+    pressure.add(response.normal_force, meeting.p_W,
+                 find_spread(at.elastic.area, meeting.normal_W));
     if (response.normal_force <= largest) continue;
     largest = response.normal_force;
     reading.friction_force = response.friction_W.norm();
     reading.normal_W = meeting.normal_W;
     reading.p_W = meeting.p_W;
   }
-  if (!(reading.normal_force > 0.0)) return reading;
-  centre /= reading.normal_force;
-  reading.spread_W =
-      reading.spread_W / reading.normal_force - centre * centre.transpose();
+  reading.spread_W = pressure.spread_W();
   return reading;
 }
 

@@ -46,7 +46,7 @@ struct PatchResponse {
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
 ///            sum W / m) over all patches of the pair,
-///            the normal force >= 0; friction of LoadShells as of a flat, of
+///            the normal force >= 0; friction of LoadShells for a flat, of
 ///            stiffness kappa N^2 / (2 W), within mu N; r_e = 0.943 sqrt(tr S)
 ///            of a round patch, 0.866 of a line; about n the stiffness is
 ///            1.875 G_r / G* times as large, which is right under Hertz's

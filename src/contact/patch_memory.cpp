@@ -18,7 +18,7 @@ void for_numbers(Patch& patch, const Visit& visit) {
 
 PatchMemory load_patch(std::span<const double> memory) {
   PatchMemory patch;
-  if (memory[0] == 0.0) return patch;
+  if (!is_touching(memory)) return patch;
   patch.is_touching = true;
   std::size_t next = 1;
   for_numbers(patch, [&](double& number) { number = memory[next++]; });

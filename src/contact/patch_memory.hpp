@@ -31,6 +31,9 @@ inline constexpr std::size_t kPatchNumbers = 8 + kFrictionNumbers;
   return memory.subspan(index * kPatchNumbers, kPatchNumbers);
 }
 
+[[nodiscard]] inline bool is_touching(std::span<const double> slot) {
+  return slot[0] != 0.0;
+}
 [[nodiscard]] PatchMemory load_patch(std::span<const double> memory);
 /// @param memory of kPatchNumbers at least
 void save_patch(const PatchMemory& patch, std::span<double> memory);

@@ -204,10 +204,12 @@ PatchResponse PatchPair::respond(const PatchTouch& touch,
 double PatchPair::find_released(const PatchTouches& touches, double t,
                                 std::span<const double> memory) const {
   double power = 0.0;
+  if (!law_.has_friction()) return power;
   for (std::size_t i = 0; i < potentials_.size(); ++i) {
-    if (touches.find(i) != nullptr) continue;
-    const PatchMemory last = load_patch(find_slot(memory, i));
-    if (!last.is_touching || !(t > last.time)) continue;
+    const std::span<const double> slot = find_slot(memory, i);
+    if (!is_touching(slot) || touches.find(i) != nullptr) continue;
+    const PatchMemory last = load_patch(slot);
+    if (!(t > last.time)) continue;
     power += law_.find_energy(last.friction) / (t - last.time);
   }
   return power;
@@ -305,7 +307,7 @@ void PatchPair::commit(const PairBodies& bodies, double t,
     const PatchTouch* touch = touches.find(i);
     const std::span<double> slot = find_slot(memory, i);
     if (touch == nullptr) {
-      if (load_patch(slot).is_touching) save_patch({}, slot);
+      if (is_touching(slot)) save_patch({}, slot);
       continue;
     }
     const PatchResponse response = respond(*touch, all, memory);

@@ -26,7 +26,7 @@ namespace limber::contact {
 ///            relative motion m by -(W_1 - W_0 + w . m) N m / (m' N m), N =
 ///            diag(1, L^2) with the solids' size L
 /// Source     docs/theory/contact_laws.md
-/// Limits     two separate places of contact of one part, as of a plate with
+/// Limits     two separate places of contact of one part, such as a plate with
 ///            feet, are one patch; parts of a surface are springs side by side:
 ///            n of them, pressed alike, are sqrt(n) times as stiff as one
 class PatchPair final : public joints::PairInteraction,

@@ -7,6 +7,7 @@
 
 #include "limber/contact/patch_pair.hpp"
 #include "limber/contact/patch_slip.hpp"
+#include "limber/contact/pressure_sum.hpp"
 #include "limber/contact/shape_measures.hpp"
 #include "limber/contact/solid_gap.hpp"
 
@@ -188,8 +189,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
   if (touches.is_empty()) return reading;
   const PatchMotion all = find_motion(bodies, touches, memory);
   Vector3 normals = Vector3::Zero();
-  Vector3 centres = Vector3::Zero();
-  const Vector3 near = touches.begin()->patch.centre_W;
+  PressureSum pressure;
   for (const PatchTouch& touch : touches) {
     const Patch& patch = touch.patch;
     const PatchResponse response = respond(touch, all, memory);
@@ -198,10 +198,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     reading.friction_W += response.friction_W;
     reading.force_W += response.wrench.wrench_W.head<3>();
     normals += elastic * response.normal_W;
-    const Vector3 centre = patch.centre_W - near;
-    centres += elastic * centre;
-    reading.spread_W +=
-        elastic * (patch.spread_W + centre * centre.transpose());
+    pressure.add(elastic, patch.centre_W, patch.spread_W);
     reading.depth = std::max(reading.depth, patch.depth);
     // Of a flat with this force and energy.
     const double depth = 2.0 * patch.energy / elastic;
@@ -214,10 +211,8 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
   }
   reading.friction_force = reading.friction_W.norm();
   reading.normal_W = normals.normalized();
-  centres /= all.load;
-  reading.p_W = near + centres;
-  reading.spread_W =
-      reading.spread_W / all.load - centres * centres.transpose();
+  reading.p_W = pressure.centre_W();
+  reading.spread_W = pressure.spread_W();
   // Root mean square of the pressure's rates along the normals.
   reading.normal_speed = std::sqrt(std::max(all.square, 0.0) / all.load);
   reading.elastic_speed = std::sqrt(2.0 * all.energy * all.inverse_mass);

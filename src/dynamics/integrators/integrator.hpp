@@ -12,7 +12,7 @@ namespace limber::dynamics {
 enum class UnresolvedMotion {
   kept,       ///< damped as the scheme is asked to
   conserved,  ///< not damped, for impacts that steps resolve
-  calmed,     ///< halved by each step at least, as of stiff contacts at rest
+  calmed,     ///< halved by each step at least: of stiff contacts at rest
   ended,      ///< as by implicit Euler, for impacts much shorter than a step
 };
 

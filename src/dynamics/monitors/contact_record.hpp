@@ -16,7 +16,7 @@ namespace limber::dynamics {
 ///
 /// Equation   in = stored + returned + damped + rubbed - error
 /// Limits     `returned` is that of the powers at the ends of steps. Where
-///            other forces act on the bodies, as of joints, `error` is the
+///            other forces act on the bodies (joints), `error` is the
 ///            lesser of that of the bodies with the contact and that of all
 ///            connected bodies.
 struct ImpactEnergy {

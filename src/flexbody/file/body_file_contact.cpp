@@ -68,7 +68,8 @@ std::vector<ContactPart> read_parts(const BodyFileReader& reader,
                                     const std::string& at,
                                     Eigen::Index columns) {
   if (!reader.in().has(at + "count")) {
-    reader.fail("lacks the parts of a flat surface, as of earlier versions");
+    reader.fail(
+        "lacks the parts of a flat surface; an earlier version wrote it");
   }
   const std::int64_t count = reader.integer(at + "count");
   if (count < 0 || count > std::int64_t{kMostParts}) {

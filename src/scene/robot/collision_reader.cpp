@@ -28,7 +28,7 @@ OtherGeometry make_useless(const XmlElement& element, const std::string& why) {
                                          fmt::format("<{}> {}", tag, why))};
 }
 
-/// The shape, unless a size of it is 0, as of placeholders.
+/// The shape; one with a size of 0, which vendors write for none, has no use.
 template <typename Shape>
 Geometry keep_sized(const XmlElement& element, const Shape& shape,
                     double least_size) {

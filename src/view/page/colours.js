@@ -16,7 +16,8 @@ const kTurbo = [
   [217, 56, 6], [177, 25, 1],
 ];
 
-function turbo(f) {
+/// Red, green and blue of 0 to 255 at f of 0 to 1.
+export function turbo(f) {
   const at = f * (kTurbo.length - 1);
   const i = Math.min(kTurbo.length - 2, Math.floor(at));
   return [0, 1, 2].map((c) => kTurbo[i][c] + (at - i) * (kTurbo[i + 1][c] - kTurbo[i][c]));

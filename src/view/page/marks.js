@@ -1,6 +1,6 @@
 // Couplers, tendons, loads and contacts.
 import * as THREE from 'three';
-import { makeMap } from './colours.js';
+import { turbo } from './colours.js';
 import { factorAt, locate, rotate } from './motion.js';
 
 const kColours = {
@@ -138,7 +138,6 @@ export class Marks {
       }
     }
     this.mostPressure = mostPressure;
-    this.map = makeMap().image.data;
     return contacts.map(({ touch, patch }) => {
       const arrow = makeArrow(kColours.contact);
       const friction = makeArrow(kColours.stick);
@@ -149,7 +148,6 @@ export class Marks {
   }
 
   updateContact({ touch, patch, arrow, friction, area, scale }, i, home) {
-    const { map } = this;
     const row = touch.subarray(kTouch * i, kTouch * (i + 1));
     const force = row.subarray(3);
     const place = home.map((value, c) => value + row[c]);
@@ -162,9 +160,8 @@ export class Marks {
       const v = new THREE.Vector3(...numbers.subarray(3, 6));
       const n = new THREE.Vector3().crossVectors(u, v).normalize();
       area.matrix.makeBasis(u, v, n).setPosition(...place);
-      const at = 4 * Math.round(255 * (pressure / this.mostPressure));
-      area.material.color.setRGB(
-        map[at] / 255, map[at + 1] / 255, map[at + 2] / 255, THREE.SRGBColorSpace);
+      const colour = turbo(pressure / this.mostPressure).map((c) => c / 255);
+      area.material.color.setRGB(...colour, THREE.SRGBColorSpace);
     }
     const along = numbers.subarray(6, 9);
     const share = numbers.length > 0 ? scale * Math.hypot(...along) : 0;

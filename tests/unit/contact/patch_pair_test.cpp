@@ -14,12 +14,14 @@
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "unit/contact/pair_scene.hpp"
 
 /// Boxes that rest, slide, land and strike each other: against Coulomb's
 /// acceleration, rigid impulses and the conserved quantities.
 namespace limber::contact::patch_pair_test {
 namespace {
 
+using Scene = test::PairScene;
 using dynamics::IntegratorKind;
 using dynamics::kWorld;
 using dynamics::SystemBuilder;
@@ -40,20 +42,6 @@ struct Block {
   [[nodiscard]] ContactSide side() const {
     return {Shape{Box{kHalf}, {}}, SurfaceMaterial{modulus, 0.3}, mass,
             inertia()};
-  }
-};
-
-struct Scene {
-  dynamics::SystemModel model;
-  dynamics::SystemState state;
-  dynamics::RunRecord record = {};
-
-  void go(double time, double step,
-          IntegratorKind scheme = IntegratorKind::generalized_alpha) {
-    dynamics::SimulationStatistics statistics;
-    simulate(model, state,
-             {.integrator = scheme, .end_time = time, .step = step}, {}, {},
-             statistics, {}, {}, record);
   }
 };
 

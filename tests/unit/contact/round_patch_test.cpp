@@ -13,11 +13,13 @@
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "unit/contact/pair_scene.hpp"
 
 /// Cylinders and capsules that rest, roll, topple and strike, in runs.
 namespace limber::contact::round_patch_test {
 namespace {
 
+using Scene = test::PairScene;
 using dynamics::kWorld;
 using dynamics::SystemBuilder;
 
@@ -35,24 +37,6 @@ ContactSide make_rod(const ShapeKind& shape = kRod) {
   return {Shape{shape, {}}, kMaterial, kMass,
           Vector3(across, across, 0.5 * kMass * square).asDiagonal()};
 }
-
-struct Scene {
-  dynamics::SystemModel model;
-  dynamics::SystemState state;
-  dynamics::RunRecord record = {};
-  dynamics::SimulationStatistics statistics = {};
-
-  void go(double time, double step) {
-    simulate(model, state, {.end_time = time, .step = step}, {}, {}, statistics,
-             {}, {}, record);
-  }
-  [[nodiscard]] const dynamics::BodyState& body() const {
-    return state.bodies[0];
-  }
-  [[nodiscard]] double find_kinetic() const {
-    return dynamics::calc_energy(model, state).kinetic_rigid;
-  }
-};
 
 Scene place(const ShapeKind& ground, const Pose& X_WR,
             const ContactParameters& parameters, double slope = 0.0,
@@ -144,7 +128,7 @@ TEST(RoundPatch, TopplesOverItsRimAndGainsNothing) {
     for (int i = 1; i <= 10; ++i) {
       scene.go(0.1 * i, 1e-3);
       const double energy =
-          scene.find_kinetic() +
+          scene.find_energy().kinetic_rigid +
           kMass * kGravity * (scene.body().p_WB.z() - kRod.radius);
       most = std::max(most, energy / fall);
     }
@@ -182,13 +166,13 @@ Scene make_strike(bool is_swapped, double e) {
 TEST(RoundPatch, KeepsMomentumAndEnergyOfACapsuleOnARim) {
   for (const double step : {1e-3, 1e-4, 1e-5}) {
     Scene scene = make_strike(false, 1.0);
-    const double before = scene.find_kinetic();
+    const double before = scene.find_energy().kinetic_rigid;
     scene.go(0.2, step);
     const Vector3 momentum =
         kMass * (scene.state.bodies[0].v_WB_W + scene.state.bodies[1].v_WB_W);
     EXPECT_LT((momentum - Vector3(0, 0, 0.5)).norm(), 1e-9);
     EXPECT_GT(scene.state.bodies[1].v_WB_W.z(), 0.05);  // struck
-    EXPECT_NEAR(scene.find_kinetic() / before, 1.0, 0.02);
+    EXPECT_NEAR(scene.find_energy().kinetic_rigid / before, 1.0, 0.02);
     EXPECT_EQ(scene.statistics.halved_steps, 0);
   }
 }

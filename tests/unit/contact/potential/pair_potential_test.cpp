@@ -10,10 +10,17 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/contact/potential/series_potential.hpp"
+#include "unit/contact/potential/patch_differences.hpp"
 
 /// Against closed forms of flats and corners, and against differences.
 namespace limber::contact::pair_potential_test {
 namespace {
+
+using test::evaluate;
+using test::expect_same_patch;
+using test::find_gradient;
+using test::find_hessian;
+using test::move;
 
 constexpr double kModulus = 1e9;  // [Pa]
 const Vector3 kHalf(0.05, 0.04, 0.03);
@@ -83,20 +90,6 @@ PlacedSolid make_slab(double a, const std::vector<std::size_t>& rim) {
   return {ConvexSolid::make_slab(corners, rim, 0.02), {}};
 }
 
-Patch evaluate(const PairPotential& potential, const Pose& X_WA,
-               const Pose& X_WB) {
-  const joints::PairBody A{X_WA.R, X_WA.p};
-  const joints::PairBody B{X_WB.R, X_WB.p};
-  return potential.evaluate({A, B}, true);
-}
-
-Pose move(const Pose& X, const Vector6& by, const Vector3& about) {
-  const Matrix3 R = exp_rotation(by.tail<3>());
-  return {R * X.R, about + by.head<3>() + R * (X.p - about)};
-}
-
-Vector6 unit(int i) { return Vector6::Unit(i); }
-
 TEST(PairPotential, OfAFlatIsThatOfARoundPunchOfItsArea) {
   for (const double d : {1e-9, 1e-6, 1e-4}) {
     const Placing flat{"flat", HalfSpace{}, lower({0, 0, 0.4}, d)};
@@ -138,15 +131,12 @@ TEST(PairPotential, HasTheGradientOfItsEnergy) {
     const PairPotential potential = make_potential(placing);
     const Patch patch = evaluate(potential, {}, placing.X_WB);
     ASSERT_TRUE(patch.touches);
+    const auto energy = [&](const Pose& X) {
+      return evaluate(potential, {}, X).energy;
+    };
+    const Vector6 found = find_gradient(placing.X_WB, patch.centre_W, energy);
     for (int i = 0; i < 6; ++i) {
-      const double h = i < 3 ? 1e-8 : 1e-7;
-      const auto energy = [&](double s) {
-        return evaluate(potential, {},
-                        move(placing.X_WB, s * h * unit(i), patch.centre_W))
-            .energy;
-      };
-      const double slope = (energy(1) - energy(-1)) / (2.0 * h);
-      EXPECT_NEAR(slope, patch.gradient_W[i],
+      EXPECT_NEAR(found[i], patch.gradient_W[i],
                   1e-6 * patch.gradient_W.head<3>().norm())
           << i;
     }
@@ -161,19 +151,7 @@ TEST(PairPotential, HasTheHessianOfItsEnergy) {
     SCOPED_TRACE(placing.name);
     const PairPotential potential = make_potential(placing);
     const Patch patch = evaluate(potential, {}, placing.X_WB);
-    Matrix6 found = Matrix6::Zero();
-    for (int i = 0; i < 6; ++i) {
-      const double h = i < 3 ? 1e-8 : 1e-7;
-      const auto gradient = [&](double s) -> Vector6 {
-        const Patch at = evaluate(
-            potential, {}, move(placing.X_WB, s * h * unit(i), patch.centre_W));
-        Vector6 g = at.gradient_W;
-        g.tail<3>() +=
-            (at.centre_W - patch.centre_W).cross(Vector3(g.head<3>()));
-        return g;
-      };
-      found.col(i) = (gradient(1) - gradient(-1)) / (2.0 * h);
-    }
+    const Matrix6 found = find_hessian(potential, placing.X_WB, patch.centre_W);
     const Matrix6& K = patch.hessian_W;
     const auto size = [](const Matrix6& m, int i, int j) {
       const Matrix3 block = m.block<3, 3>(3 * i, 3 * j);
@@ -199,12 +177,7 @@ TEST(PairPotential, IsTheSameWithNamesSwapped) {
     const Patch other =
         evaluate({Shape{placing.B, {}}, Shape{placing.A, {}}, kModulus},
                  placing.X_WB, {});
-    EXPECT_NEAR(other.energy / one.energy, 1.0, 1e-9);
-    EXPECT_LT((other.centre_W - one.centre_W).norm(), 1e-10);
-    EXPECT_LT((other.gradient_W + one.gradient_W).norm(),
-              1e-9 * one.gradient_W.norm());
-    EXPECT_LT((other.hessian_W - one.hessian_W).norm(),
-              1e-7 * one.hessian_W.norm());
+    expect_same_patch(one, other, 1e-10, 1e-7);
   }
 }
 
@@ -247,13 +220,10 @@ TEST(PairPotential, OfAPartHasTheGradientOfItsEnergy) {
         };
         const Patch patch = find(X);
         ASSERT_TRUE(patch.touches);
+        const auto energy = [&](const Pose& at) { return find(at).energy; };
+        const Vector6 found = find_gradient(X, patch.centre_W, energy);
         for (int i = 0; i < 6; ++i) {
-          const double h = i < 3 ? 1e-8 : 1e-7;
-          const auto energy = [&](double s) {
-            return find(move(X, s * h * unit(i), patch.centre_W)).energy;
-          };
-          const double slope = (energy(1) - energy(-1)) / (2.0 * h);
-          EXPECT_NEAR(slope, (is_swapped ? -1.0 : 1.0) * patch.gradient_W[i],
+          EXPECT_NEAR(found[i], (is_swapped ? -1.0 : 1.0) * patch.gradient_W[i],
                       1e-6 * patch.gradient_W.head<3>().norm())
               << i;
         }
@@ -313,7 +283,8 @@ TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
       ASSERT_TRUE(patch.touches);
       for (int i = 0; i < 3; ++i) {
         const auto energy = [&](double s) {
-          return find(move(X, s * 1e-9 * unit(i), patch.centre_W)).energy;
+          return find(move(X, s * 1e-9 * Vector6::Unit(i), patch.centre_W))
+              .energy;
         };
         EXPECT_NEAR((energy(1) - energy(-1)) / 2e-9, -patch.gradient_W[i],
                     1e-5 * patch.load())

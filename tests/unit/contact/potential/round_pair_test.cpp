@@ -11,6 +11,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 #include "limber/contact/potential/solid_overlap.hpp"
+#include "unit/contact/potential/patch_differences.hpp"
 #include "unit/contact/potential/round_placings.hpp"
 
 /// Cylinders, capsules and balls: against closed forms of the overlap, Hertz,
@@ -19,21 +20,14 @@ namespace limber::contact::round_pair_test {
 namespace {
 
 using namespace round_placings;
+using test::evaluate;
+using test::expect_same_patch;
+using test::find_gradient;
+using test::find_hessian;
+using test::move;
 
 PairPotential make_potential(const Placing& placing) {
   return {Shape{placing.A, {}}, Shape{placing.B, {}}, kModulus};
-}
-
-Patch evaluate(const PairPotential& potential, const Pose& X_WA,
-               const Pose& X_WB) {
-  const joints::PairBody A{X_WA.R, X_WA.p};
-  const joints::PairBody B{X_WB.R, X_WB.p};
-  return potential.evaluate({A, B}, true);
-}
-
-Pose move(const Pose& X, const Vector6& by, const Vector3& about) {
-  const Matrix3 R = exp_rotation(by.tail<3>());
-  return {R * X.R, about + by.head<3>() + R * (X.p - about)};
 }
 
 DepthMoments find_moments(const ShapeKind& soft, const ShapeKind& hard,
@@ -141,14 +135,13 @@ TEST(SurfaceContact, HasTheHessianOfItsMoment) {
     const DepthMoments moments = at(Vector6::Zero());
     Matrix6 found;
     for (int i = 0; i < 6; ++i) {
-      const double h = i < 3 ? 1e-8 : 1e-7;
-      const Vector6 by = h * Vector6::Unit(i);
+      const test::SmallMotion m(i);
       const auto near = [&](double slope, double expected) {
         const double size = moments.m1.head<3>().norm();
         EXPECT_NEAR(slope, expected, 1e-6 * size) << i;
       };
-      near((at(by).M - at(-by).M) / (2.0 * h), moments.m1[i]);
-      found.col(i) = (at(by).m1 - at(-by).m1) / (2.0 * h);
+      near((at(m.by).M - at(-m.by).M) / (2.0 * m.h), moments.m1[i]);
+      found.col(i) = (at(m.by).m1 - at(-m.by).m1) / (2.0 * m.h);
     }
     const Matrix6 rest = 0.5 * (found + found.transpose()) - moments.m2;
     EXPECT_LT(rest.norm(), 1e-5 * moments.m2.norm());
@@ -243,15 +236,12 @@ TEST(RoundPair, HasTheGradientOfItsEnergy) {
     const PairPotential potential = make_potential(placing);
     const Patch patch = evaluate(potential, {}, placing.X_WB);
     ASSERT_TRUE(patch.touches);
+    const auto energy = [&](const Pose& X) {
+      return evaluate(potential, {}, X).energy;
+    };
+    const Vector6 found = find_gradient(placing.X_WB, patch.centre_W, energy);
     for (int i = 0; i < 6; ++i) {
-      const double h = i < 3 ? 1e-8 : 1e-7;
-      const auto energy = [&](double s) {
-        const Vector6 by = s * h * Vector6::Unit(i);
-        return evaluate(potential, {}, move(placing.X_WB, by, patch.centre_W))
-            .energy;
-      };
-      const double slope = (energy(1) - energy(-1)) / (2.0 * h);
-      EXPECT_NEAR(slope, patch.gradient_W[i], placing.slack * patch.load())
+      EXPECT_NEAR(found[i], patch.gradient_W[i], placing.slack * patch.load())
           << i;
     }
   }
@@ -264,20 +254,7 @@ TEST(RoundPair, HasTheHessianOfItsEnergy) {
     SCOPED_TRACE(placing.name);
     const PairPotential potential = make_potential(placing);
     const Patch patch = evaluate(potential, {}, placing.X_WB);
-    Matrix6 found = Matrix6::Zero();
-    for (int i = 0; i < 6; ++i) {
-      const double h = i < 3 ? 1e-8 : 1e-7;
-      const auto gradient = [&](double s) -> Vector6 {
-        const Vector6 by = s * h * Vector6::Unit(i);
-        const Patch at =
-            evaluate(potential, {}, move(placing.X_WB, by, patch.centre_W));
-        Vector6 g = at.gradient_W;
-        g.tail<3>() +=
-            (at.centre_W - patch.centre_W).cross(Vector3(g.head<3>()));
-        return g;
-      };
-      found.col(i) = (gradient(1) - gradient(-1)) / (2.0 * h);
-    }
+    const Matrix6 found = find_hessian(potential, placing.X_WB, patch.centre_W);
     const Matrix6& K = patch.hessian_W;
     const Matrix6 rest = 0.5 * (found + found.transpose()) - K;
     const auto size = [](const Matrix6& m, int i, int j) {
@@ -300,12 +277,7 @@ TEST(RoundPair, IsTheSameWithNamesSwapped) {
     const Patch other =
         evaluate({Shape{placing.B, {}}, Shape{placing.A, {}}, kModulus},
                  placing.X_WB, {});
-    EXPECT_NEAR(other.energy / one.energy, 1.0, 1e-9);
-    EXPECT_LT((other.centre_W - one.centre_W).norm(), 1e-9);
-    EXPECT_LT((other.gradient_W + one.gradient_W).norm(),
-              1e-9 * one.gradient_W.norm());
-    EXPECT_LT((other.hessian_W - one.hessian_W).norm(),
-              1e-6 * one.hessian_W.norm());
+    expect_same_patch(one, other, 1e-9, 1e-6);
   }
 }
 
