@@ -15,7 +15,12 @@ template <typename Value, std::size_t kMost>
 class StackArray {
  public:
   StackArray() = default;
-  StackArray(const StackArray&) = delete;
+  /// Of those added.
+  StackArray(const StackArray& other) {
+    for (const Value& value : other.all()) {
+      std::construct_at(begin() + count_++, value);
+    }
+  }
   StackArray& operator=(const StackArray&) = delete;
 
   /// @throws ContractError beyond kMost.

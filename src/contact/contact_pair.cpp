@@ -73,7 +73,14 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
                  count_features() == 1),
       size_(contact::find_size(A_.shape, B_.shape)),
       mode_reach_A_(find_mode_reach(A_.shape)),
-      mode_reach_B_(find_mode_reach(B_.shape)) {}
+      mode_reach_B_(find_mode_reach(B_.shape)) {
+  if (parameters.rolling_friction > 0.0) {
+    throw InputError(
+        "contact: rolling_friction acts between shapes of known material, of "
+        "which none is the whole surface of a flexible link, without radius, "
+        "stiffness or damping");
+  }
+}
 
 // Adds friction about the normal as two more points, on both sides of the
 // meeting's place.

@@ -31,6 +31,11 @@ void describe_side(Manifest& out, const char* name, const ContactSide& side) {
 
 FreeBody make_free_body(const ContactSide& side,
                         const ContactParameters& parameters) {
+  if (parameters.rolling_friction > 0.0 && std::isfinite(side.mass) &&
+      side.inertia_B.isZero(0.0)) {
+    throw InputError(
+        "contact: rolling_friction needs the inertia of both bodies");
+  }
   const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
   if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
       side.inertia_B.isZero(0.0)) {

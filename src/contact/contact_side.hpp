@@ -42,8 +42,8 @@ class OpposedMass {
  public:
   static constexpr std::size_t kNumbers = 144;
 
-  /// @throws InputError for a restitution of a body that may turn without
-  /// inertia.
+  /// @throws InputError for a restitution or rolling friction of a body that
+  /// may turn without inertia.
   OpposedMass(const ContactSide& A, const ContactSide& B,
               const ContactParameters& parameters);
 

@@ -8,7 +8,7 @@ SideFrames::SideFrames(const std::vector<PatchPart>& parts,
     : parts_(parts), is_shared_(parts.size() > flexbody::kMostParts) {
   const std::size_t count = is_shared_ ? 1 : parts.size();
   for (std::size_t i = 0; i < count; ++i) {
-    frames_[i] = parts[i].find_motion(body);
+    frames_.add() = parts[i].find_motion(body);
   }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,7 +20,7 @@ class SideFrames {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
   [[nodiscard]] const joints::PairBody& operator[](std::size_t i) const {
-    return frames_[is_shared_ ? 0 : i];
+    return frames_.all()[is_shared_ ? 0 : i];
   }
   /// Of a part's ball [m].
   [[nodiscard]] Vector3 find_centre(std::size_t i) const {
@@ -37,7 +36,7 @@ class SideFrames {
  private:
   const std::vector<PatchPart>& parts_;
   bool is_shared_;
-  std::array<joints::PairBody, flexbody::kMostParts> frames_;
+  StackArray<joints::PairBody, flexbody::kMostParts> frames_;
 };
 
 /// The frames of all parts of both sides.

@@ -23,6 +23,8 @@ struct PatchMotion {
   double square = 0.0;        ///< sum twist . D twist [N m^2/s^2]
   double energy = 0.0;        ///< sum W [J]
   double inverse_mass = 0.0;  ///< of all along their normals [1/kg]
+  /// Mean of both axes across them; 0 without rolling friction [1/(kg m^2)].
+  double inverse_inertia = 0.0;
 };
 
 /// What acts on B, about the centre of pressure.
@@ -32,7 +34,7 @@ struct PatchResponse {
   double normal_force = 0.0;             ///< damping included, >= 0 [N]
   Vector3 friction_W = Vector3::Zero();  ///< force on B [N]
   bool slips = false;
-  double energy = 0.0;          ///< of friction [J]
+  double energy = 0.0;          ///< of friction, that of rolling included [J]
   double slip_work = 0.0;       ///< lost by slip and release, >= 0 [J]
   double damped = 0.0;          ///< by the normal damping, >= 0 [W]
   double rubbed = 0.0;          ///< by the damper of friction, >= 0 [W]
@@ -46,20 +48,27 @@ struct PatchResponse {
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
 ///            sum W / m) over all patches of the pair,
-///            the normal force >= 0; friction of LoadShells for a flat, of
-///            stiffness kappa N^2 / (2 W), within mu N; r_e = 0.943 sqrt(tr S)
-///            of a round patch, 0.866 of a line; about n the stiffness is
-///            1.875 G_r / G* times as large, which is right under Hertz's
-///            pressure and 25 % high for a round flat
+///            the normal force >= 0; friction of LoadShells with the load N ~
+///            d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e =
+///            0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the
+///            stiffness is 1.875 G_r / G* times as large, which is right under
+///            Hertz's pressure and 25 % high for a round flat; of a point r_e =
+///            3 pi a / 16 and 512 / (27 pi^2) G_r / G*; resist_rolling
 /// Source     [@hunt1975] with find_restitution_factor; kappa of [@mindlin1949]
-/// Limits     one shell: right for flats, whose stiffness is constant, which
-///            the tangent takes it to be
+/// Limits     one shell of all patches but points: right for flats, whose
+///            stiffness is constant
 class PatchLaw {
  public:
+  /// @param is_point whether the bodies touch as HertzPair
+  /// @param size of the bodies > 0, whose depth has the shells' k_0 [m]
   /// @throws InputError as check(parameters).
-  PatchLaw(const ContactParameters& parameters, const PairModuli& moduli);
+  PatchLaw(const ContactParameters& parameters, const PairModuli& moduli,
+           bool is_point, double size);
 
-  [[nodiscard]] bool has_friction() const { return has_friction_; }
+  /// That slides or rolls.
+  [[nodiscard]] bool has_friction() const { return slides_ || rolls(); }
+  [[nodiscard]] bool is_point() const { return is_point_; }
+  [[nodiscard]] bool rolls() const { return rolling_arm_ > 0.0; }
   [[nodiscard]] double damping_factor() const { return factor_; }
 
   struct Input {
@@ -84,10 +93,23 @@ class PatchLaw {
  private:
   void add_damping(const Input& in, PatchResponse& out) const;
   void add_friction(const Input& in, PatchResponse& out) const;
+  // @param pressed without friction
+  void add_sliding(const Input& in, const PatchWrench& pressed,
+                   const FrictionFrame& frame, ShellMemory& next,
+                   PatchResponse& out) const;
+  void add_rolling(const Input& in, const PatchWrench& pressed,
+                   const FrictionFrame& frame, RollingSpring& next,
+                   PatchResponse& out) const;
 
+  // r_e [m]
+  [[nodiscard]] double find_radius(const Patch& patch,
+                                   const Vector3& normal_W) const;
+
+  bool is_point_;
   LoadShells shells_;
-  bool has_friction_;
-  double factor_;  // beta [-]
+  bool slides_;
+  double rolling_arm_;  // [m]
+  double factor_;       // beta [-]
 };
 
 /// r_e of a patch's resistance to spin [m].

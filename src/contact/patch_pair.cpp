@@ -71,8 +71,9 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       parts_A_(make_parts(A_)),
       parts_B_(make_parts(B_)),
       potentials_(make_potentials(A_, parts_A_, B_, parts_B_)),
-      law_(parameters, *find_pair_moduli(A_.material, B_.material)),
-      size_(contact::find_size(A_.shape, B_.shape)) {
+      size_(contact::find_size(A_.shape, B_.shape)),
+      law_(parameters, *find_pair_moduli(A_.material, B_.material),
+           HertzPair::suits(A_.shape.kind, B_.shape.kind), size_) {
   LIMBER_EXPECT(suits(A_, B_, parameters));
   (void)check_masses(A_, B_);
 }
@@ -146,7 +147,8 @@ double PatchPair::find_energy(const PatchTouch* touch) {
 PatchPoints PatchPair::place_points(const Patch& patch) const {
   const Vector3 n = patch.normal_W();
   return {patch.centre_W, n,
-          std::max(std::sqrt(patch.spread_W.trace()), kLeastRadius * size_)};
+          std::max(std::sqrt(std::max(0.0, patch.spread_W.trace())),
+                   kLeastRadius * size_)};
 }
 
 void PatchPair::add_points(const PairBodies& bodies, const PatchTouch& touch,
@@ -161,16 +163,25 @@ void PatchPair::add_points(const PairBodies& bodies, const PatchTouch& touch,
   }
 }
 
-double PatchPair::find_inverse_mass(const PairBodies& bodies,
-                                    const PatchTouches& touches,
-                                    std::span<const double> memory) const {
+void PatchPair::add_masses(const PairBodies& bodies,
+                           const PatchTouches& touches,
+                           std::span<const double> memory,
+                           PatchMotion& out) const {
   NormalLoad load;
   double F = 0.0;
   for (const PatchTouch& touch : touches) {
     load.add(bodies, touch.patch.centre_W, -touch.patch.gradient_W.head<3>());
     F += touch.patch.load();
   }
-  return mass_.find_inverse(bodies, load, F, memory);
+  out.inverse_mass = mass_.find_inverse(bodies, load, F, memory);
+  if (!law_.rolls()) return;
+  const FrictionFrame frame(load.force_W.normalized());
+  for (const Vector3 axis_W : frame.plane_W.colwise()) {
+    out.inverse_inertia +=
+        0.5 * mass_.find_inverse(bodies,
+                                 {.moment_A = axis_W, .moment_B = axis_W}, 1.0,
+                                 memory);
+  }
 }
 
 PatchMotion PatchPair::find_motion(const PairBodies& bodies,
@@ -183,7 +194,7 @@ PatchMotion PatchPair::find_motion(const PairBodies& bodies,
     all.square += PatchLaw::find_square(
         touch.patch, find_twist({touch.A, touch.B}, touch.patch.centre_W));
   }
-  all.inverse_mass = find_inverse_mass(bodies, touches, memory);
+  add_masses(bodies, touches, memory, all);
   return all;
 }
 
@@ -248,7 +259,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
   out.slip_power += find_released(touches, step.times.end, memory);
   if (touches.is_empty()) return;
   PatchMotion all;
-  all.inverse_mass = find_inverse_mass(step.middle, touches, memory);
+  add_masses(step.middle, touches, memory, all);
   std::array<Vector6, kMostPatches> motions;
   std::size_t i = 0;
   for (const PatchTouch& touch : touches) {

@@ -111,9 +111,8 @@ class PatchPair final : public joints::PairInteraction,
                   const PatchPoints& points, joints::PairResponse& out) const;
   [[nodiscard]] double find_released(const PatchTouches& touches, double t,
                                      std::span<const double> memory) const;
-  [[nodiscard]] double find_inverse_mass(const joints::PairBodies& bodies,
-                                         const PatchTouches& touches,
-                                         std::span<const double> memory) const;
+  void add_masses(const joints::PairBodies& bodies, const PatchTouches& touches,
+                  std::span<const double> memory, PatchMotion& out) const;
   [[nodiscard]] PatchResponse respond(const PatchTouch& touch,
                                       const PatchMotion& all,
                                       std::span<const double> memory) const;
@@ -133,8 +132,8 @@ class PatchPair final : public joints::PairInteraction,
   std::vector<PatchPart> parts_A_;
   std::vector<PatchPart> parts_B_;
   std::vector<SeriesPotential> potentials_;  // of all pairs, those of A first
-  PatchLaw law_;
   double size_;
+  PatchLaw law_;
 };
 
 }  // namespace limber::contact

@@ -125,8 +125,8 @@ joints::TouchReach PatchPair::find_reach_B() const {
   return find_reach(B_.shape, reach_B_);
 }
 
-// Three times the way in which the energy of both bodies is stored, over the
-// speed: 3.14 of a spring, 2.94 of a ball.
+// The way in which the energy of both bodies is stored, over the speed, times
+// 2.9433 of balls, exactly, and 3 of others: pi of flats, less of edges.
 double PatchPair::find_duration(const PairBodies& bodies,
                                 const joints::PairTouch& touch,
                                 double inverse_mass) const {
@@ -145,7 +145,7 @@ double PatchPair::find_duration(const PairBodies& bodies,
     const double way = 0.5 * (long_way + short_way);
     (store(way) > energy ? long_way : short_way) = way;
   }
-  return 3.0 * long_way / speed;
+  return (law_.is_point() ? 2.9433 : 3.0) * long_way / speed;
 }
 
 double PatchPair::begin_touch(const PairBodies& bodies, double t,
@@ -200,11 +200,12 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     normals += elastic * response.normal_W;
     pressure.add(elastic, patch.centre_W, patch.spread_W);
     reading.depth = std::max(reading.depth, patch.depth);
-    // Of a flat with this force and energy.
-    const double depth = 2.0 * patch.energy / elastic;
+    // Of a round flat, or a ball, with this force and energy.
+    const double p = patch.exponent;
+    const double depth = (p + 1.0) * patch.energy / elastic;
     const double modulus = potentials_[touch.index].modulus();
     reading.area +=
-        std::numbers::pi * std::pow(elastic / (2.0 * modulus * depth), 2);
+        std::numbers::pi * std::pow(p * elastic / (2.0 * modulus * depth), 2);
     reading.energy += patch.energy + response.energy;
     reading.slips = reading.slips || response.slips;
     ++reading.points;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/stack_array.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 
@@ -28,17 +28,17 @@ class PatchTouches {
  public:
   /// @throws NumericalError beyond kMostPatches.
   void add(const PatchTouch& touch) {
-    if (count_ == all_.size()) {
+    if (size() == kMostPatches) {
       throw NumericalError(
           "contact: too many parts of two shapes touch at one time; simpler "
           "collision shapes have fewer");
     }
-    all_[count_++] = touch;
+    all_.add() = touch;
   }
-  [[nodiscard]] const PatchTouch* begin() const { return all_.data(); }
-  [[nodiscard]] const PatchTouch* end() const { return all_.data() + count_; }
-  [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] bool is_empty() const { return count_ == 0; }
+  [[nodiscard]] const PatchTouch* begin() const { return all_.all().data(); }
+  [[nodiscard]] const PatchTouch* end() const { return begin() + size(); }
+  [[nodiscard]] std::size_t size() const { return all_.all().size(); }
+  [[nodiscard]] bool is_empty() const { return size() == 0; }
   /// Or null.
   [[nodiscard]] const PatchTouch* find(std::size_t index) const {
     const PatchTouch* found = std::find_if(
@@ -48,8 +48,7 @@ class PatchTouches {
   }
 
  private:
-  std::array<PatchTouch, kMostPatches> all_;
-  std::size_t count_ = 0;
+  StackArray<PatchTouch, kMostPatches> all_;
 };
 
 }  // namespace limber::contact

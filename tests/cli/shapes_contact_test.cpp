@@ -52,6 +52,47 @@ TEST(BlockOnABox, HoldsOnASlope) {
   EXPECT_NEAR(run["contacts"][0]["impulse"].get<double>(), 2.0 * 9.66136, 0.05);
 }
 
+// J / (m R^2) = 0.66.
+TEST(BallOnABox, RollsAgainstRollingFriction) {
+  const Workspace place;
+  const std::string slope =
+      "friction = 0.5\nrestitution = 0.2\n[gravity]\n"
+      "acceleration = [1.70354, 0.0, -9.66136]\n"
+      "[time]\nduration = 0.6\nstep = 1e-3\n";
+  for (const double arm : {0.0, 2e-3, 1e-2}) {
+    const json run =
+        run_block(place, "<sphere radius='0.05'/>", 1e-6,
+                  "rolling_friction = " + std::to_string(arm) + "\n" + slope);
+    const double pull = 1.70354 - arm / 0.05 * 9.66136;
+    const double expected = pull > 0.0 ? 0.18 * pull / 1.66 : 0.0;
+    EXPECT_NEAR(run["probes"]["p.x"]["final"].get<double>(), expected,
+                0.01 * expected + 1e-3);
+  }
+}
+
+TEST(RollingFriction, IsRefusedWhereItCannotAct) {
+  const Workspace place;
+  const auto run = [&](const std::string& more) {
+    place.write("ball.urdf",
+                "<robot name='r'><link name='b'><inertial><mass value='2'/>"
+                "<inertia ixx='0.002' iyy='0.002' izz='0.002' ixy='0' ixz='0' "
+                "iyz='0'/></inertial><collision><geometry><sphere "
+                "radius='0.05'/></geometry></collision></link></robot>");
+    place.write("scene.toml",
+                "robot = 'ball.urdf'\n[time]\nduration = 0.1\nstep = 1e-3\n"
+                "[[obstacle]]\nname = 'floor'\nshape = 'plane'\n"
+                "position = [0.0, 0.0, -0.06]\n"
+                "[[contact]]\nbetween = ['b', 'floor']\n" +
+                    more);
+    return place.limber("run scene.toml --out o");
+  };
+  const CommandResult negative = run("rolling_friction = -1e-3\n");
+  EXPECT_EQ(negative.status, 2);
+  EXPECT_NE(negative.errors.find("rolling_friction"), std::string::npos);
+  const CommandResult unknown = run("rolling_friction = 'much'\n");
+  EXPECT_EQ(unknown.status, 2);
+}
+
 /// The last row of the patch that the results hold.
 Eigen::VectorXd read_patch(const Workspace& place) {
   const Hdf5File file = Hdf5File::open(place.folder() / "o/results.h5");

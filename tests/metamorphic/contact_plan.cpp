@@ -11,10 +11,10 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/contact_pair.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/shapes/shape_skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/pairs/touching.hpp"
 
 namespace limber::metamorphic {
 namespace {
@@ -89,10 +89,7 @@ std::shared_ptr<const joints::PairInteraction> make_law(
   const auto& [first, second] = std::tie(plan.bodies[0], plan.bodies[1]);
   const ContactSide A = make_side(plan.is_swapped ? second : first);
   const ContactSide B = make_side(plan.is_swapped ? first : second);
-  if (contact::PatchPair::suits(A, B, plan.parameters)) {
-    return std::make_shared<const contact::PatchPair>(A, B, plan.parameters);
-  }
-  return std::make_shared<const contact::ContactPair>(A, B, plan.parameters);
+  return contact::make_contact(A, B, plan.parameters);
 }
 
 // The first body flies at the other, and starts near it.

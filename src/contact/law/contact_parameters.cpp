@@ -7,6 +7,8 @@ namespace limber::contact {
 
 void check(const ContactParameters& parameters) {
   check(parameters.friction);
+  check_value(parameters.rolling_friction >= 0.0, "rolling friction",
+              parameters.rolling_friction, ">= 0 m");
   const double e = parameters.restitution;
   check_value(e >= 0.0 && e <= 1.0, "restitution", e, "0 to 1");
   const auto check_positive = [](const std::optional<double>& value,

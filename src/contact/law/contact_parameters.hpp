@@ -10,7 +10,9 @@ namespace limber::contact {
 
 /// What a user can set for a contact.
 struct ContactParameters {
-  FrictionLimit friction = {};        ///< none
+  FrictionLimit friction = {};  ///< none
+  /// Arm b >= 0 of the normal force that resists rolling at most [m].
+  double rolling_friction = 0.0;
   double restitution = 1.0;           ///< of a free impact, in [0, 1] [-]
   std::optional<double> radius = {};  ///< R_e > 0 in place of the shapes' [m]
   std::optional<double> stiffness = {};  ///< Hertz's k > 0 in place of that of
@@ -20,8 +22,9 @@ struct ContactParameters {
 };
 
 constexpr auto fields_of(const ContactParameters*) {
-  return list_fields("contact", "friction", "restitution", "radius [m]",
-                     "stiffness [N/m^1.5]", "damping [s/m]");
+  return list_fields("contact", "friction", "rolling friction [m]",
+                     "restitution", "radius [m]", "stiffness [N/m^1.5]",
+                     "damping [s/m]");
 }
 
 /// @throws InputError for a value outside its range.

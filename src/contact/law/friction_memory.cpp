@@ -12,6 +12,20 @@ Matrix3 to_matrix(const Eigen::Vector4d& turn) {
 
 bool is_new(const FrictionMemory& memory) { return memory.turn_B.isZero(0.0); }
 
+// The mean of both bodies' turns since then.
+Matrix3 find_mean_turn(const FrictionMemory& memory, const BodyTurns& turns) {
+  return 0.5 * (turns.R_WA * to_matrix(memory.turn_A).transpose() +
+                turns.R_WB * to_matrix(memory.turn_B).transpose());
+}
+
+Eigen::Vector2d carry(const Vector3& vector_W, const Matrix3& turn,
+                      const FrictionFrame& frame) {
+  const Eigen::Vector2d inside = frame.plane_W.transpose() * (turn * vector_W);
+  const double length = inside.norm();
+  return length > 0.0 ? Eigen::Vector2d(vector_W.norm() / length * inside)
+                      : inside;
+}
+
 }  // namespace
 
 FrictionFrame::FrictionFrame(const Vector3& normal) : normal_W(normal) {
@@ -20,8 +34,8 @@ FrictionFrame::FrictionFrame(const Vector3& normal) : normal_W(normal) {
 }
 
 FrictionMemory keep_friction(const ShellMemory& shells,
-                             const FrictionFrame& frame,
-                             const BodyTurns& turns) {
+                             const FrictionFrame& frame, const BodyTurns& turns,
+                             const RollingSpring& rolling) {
   FrictionMemory memory;
   memory.lowest = shells.lowest;
   for (std::size_t i = 0; i < kShells; ++i) {
@@ -30,6 +44,8 @@ FrictionMemory keep_friction(const ShellMemory& shells,
                          frame.plane_W * shell.spring.head<2>(),
                          shell.spring[2]};
   }
+  memory.rolling_stiffness = rolling.stiffness;
+  memory.rolling_W = frame.plane_W * rolling.moment;
   memory.turn_A = Quaternion(turns.R_WA).coeffs();
   memory.turn_B = Quaternion(turns.R_WB).coeffs();
   return memory;
@@ -40,32 +56,34 @@ ShellMemory recall_friction(const FrictionMemory& memory,
                             const BodyTurns& turns) {
   ShellMemory shells{.lowest = memory.lowest};
   if (is_new(memory)) return shells;
-  const Matrix3 turn =
-      0.5 * (turns.R_WA * to_matrix(memory.turn_A).transpose() +
-             turns.R_WB * to_matrix(memory.turn_B).transpose());
+  const Matrix3 turn = find_mean_turn(memory, turns);
   for (std::size_t i = 0; i < kShells; ++i) {
     const FrictionMemory::Spring& spring = memory.springs[i];
-    Eigen::Vector2d force = frame.plane_W.transpose() * (turn * spring.force_W);
-    const double length = force.norm();
-    if (length > 0.0) force *= spring.force_W.norm() / length;
     shells.shells[i].stiffness = spring.stiffness;
-    shells.shells[i].spring << force, spring.spin;
+    shells.shells[i].spring << carry(spring.force_W, turn, frame), spring.spin;
   }
   return shells;
 }
 
-double find_turn(const FrictionMemory& memory, const FrictionFrame& frame,
-                 const BodyTurns& turns) {
-  if (is_new(memory)) return 0.0;
+RollingSpring recall_rolling(const FrictionMemory& memory,
+                             const FrictionFrame& frame,
+                             const BodyTurns& turns) {
+  if (is_new(memory)) return {};
+  return {memory.rolling_stiffness,
+          carry(memory.rolling_W, find_mean_turn(memory, turns), frame)};
+}
+
+Vector3 find_turn_W(const FrictionMemory& memory, const BodyTurns& turns) {
+  if (is_new(memory)) return Vector3::Zero();
   const Matrix3 before =
       to_matrix(memory.turn_A).transpose() * to_matrix(memory.turn_B);
   const Quaternion turn(
       Matrix3(turns.R_WA.transpose() * turns.R_WB * before.transpose()));
   const double sine = turn.vec().norm();
-  if (sine == 0.0) return 0.0;
+  if (sine == 0.0) return Vector3::Zero();
   const double angle = 2.0 * std::atan2(sine, std::abs(turn.w()));
   const double share = std::copysign(angle / sine, turn.w());
-  return share * frame.normal_W.dot(turns.R_WA * turn.vec());
+  return share * (turns.R_WA * turn.vec());
 }
 
 }  // namespace limber::contact

@@ -7,6 +7,7 @@
 
 #include "limber/common/types.hpp"
 #include "limber/contact/law/load_shells.hpp"
+#include "limber/contact/law/rolling_resistance.hpp"
 
 namespace limber::contact {
 
@@ -25,7 +26,7 @@ struct FrictionFrame {
 };
 
 /// Friction's springs between steps, and the rotations at which they were
-/// kept: a plain value of 34 numbers.
+/// kept: a plain value of kFrictionNumbers.
 struct FrictionMemory {
   struct Spring {
     double stiffness = 0.0;             ///< [N/m]
@@ -34,15 +35,18 @@ struct FrictionMemory {
   };
   double lowest = 0.0;  ///< see ShellMemory
   std::array<Spring, kShells> springs = {};
+  double rolling_stiffness = 0.0;       ///< [N m]
+  Vector3 rolling_W = Vector3::Zero();  ///< in the tangent plane [N m]
   Eigen::Vector4d turn_A = Eigen::Vector4d::Zero();  ///< quaternion x y z w
   Eigen::Vector4d turn_B = Eigen::Vector4d::Zero();  ///< all 0 before the first
 };
 
-inline constexpr std::size_t kFrictionNumbers = 9 + 5 * kShells;
+inline constexpr std::size_t kFrictionNumbers = 13 + 5 * kShells;
 
 [[nodiscard]] FrictionMemory keep_friction(const ShellMemory& shells,
                                            const FrictionFrame& frame,
-                                           const BodyTurns& turns);
+                                           const BodyTurns& turns,
+                                           const RollingSpring& rolling = {});
 
 /// The springs at present rotations: turned by the mean of both bodies' turns
 /// since then, whatever the bodies' order, into the present tangent plane,
@@ -51,11 +55,14 @@ inline constexpr std::size_t kFrictionNumbers = 9 + 5 * kShells;
                                           const FrictionFrame& frame,
                                           const BodyTurns& turns);
 
-/// Rotation of B against A since then about the normal, less than half a turn
-/// [rad].
-[[nodiscard]] double find_turn(const FrictionMemory& memory,
-                               const FrictionFrame& frame,
-                               const BodyTurns& turns);
+/// Likewise.
+[[nodiscard]] RollingSpring recall_rolling(const FrictionMemory& memory,
+                                           const FrictionFrame& frame,
+                                           const BodyTurns& turns);
+
+/// Rotation of B against A since then, less than half a turn [rad].
+[[nodiscard]] Vector3 find_turn_W(const FrictionMemory& memory,
+                                  const BodyTurns& turns);
 
 /// Calls `visit` with every number, in one order.
 template <typename Memory, typename Visit>
@@ -66,6 +73,8 @@ void visit_friction(Memory& memory, const Visit& visit) {
     for (int i = 0; i < 3; ++i) visit(spring.force_W[i]);
     visit(spring.spin);
   }
+  visit(memory.rolling_stiffness);
+  for (int i = 0; i < 3; ++i) visit(memory.rolling_W[i]);
   for (int i = 0; i < 4; ++i) visit(memory.turn_A[i]);
   for (int i = 0; i < 4; ++i) visit(memory.turn_B[i]);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limber/contact/law/check_value.hpp"
+#include "limber/contact/law/within.hpp"
 
 namespace limber::contact {
 namespace {
@@ -28,27 +29,6 @@ void raise(double lowest, ShellMemory& memory) {
   }
   memory = moved;
 }
-
-Matrix3 reject(const Vector3& direction) {
-  return Matrix3::Identity() - direction * direction.transpose();
-}
-
-// x within a limit, with its derivatives by x and by the limit.
-struct Limited {
-  Limited(const Vector3& x, double limit) : value(x) {
-    const double size = x.norm();
-    if (!(size > limit)) return;
-    is_cut = true;
-    by_limit = x / size;
-    value = limit * by_limit;
-    by_value = limit / size * reject(by_limit);
-  }
-
-  Vector3 value;
-  Matrix3 by_value = Matrix3::Identity();
-  Vector3 by_limit = Vector3::Zero();
-  bool is_cut = false;
-};
 
 }  // namespace
 
@@ -152,7 +132,7 @@ void LoadShells::add_shell(const LoadShell& before, const Share& share,
   if (is_released) released.spring *= k / before.stiffness;
   const Vector3 way = ratios.cwiseProduct(motion.increment);
   const Vector3 trial = released.spring + k * way;
-  const Limited spring(trial, limit_by_load * share.load);
+  const Within<3> spring(trial, limit_by_load * share.load);
   Vector3 trial_by_load = share.stiffness_by_load * way;
   if (is_released) {
     trial_by_load += share.stiffness_by_load / before.stiffness * before.spring;
@@ -175,9 +155,9 @@ void LoadShells::add_shell(const LoadShell& before, const Share& share,
   out.slip_work -= find_energy(released);
   out.by_increment -= k * spring.by_value * ratios.asDiagonal();
   out.by_load -= spring.by_value * trial_by_load +
-                 limit_by_load * share.load_by_load * spring.by_limit;
+                 limit_by_load * share.load_by_load * spring.by_most;
   // By the limit over mu g: also for the velocity.
-  out.by_grip -= share.load * spring.by_limit;
+  out.by_grip -= share.load * spring.by_most;
 }
 
 ShellResponse LoadShells::evaluate(const ShellMemory& memory,
@@ -205,8 +185,8 @@ ShellResponse LoadShells::evaluate(const ShellMemory& memory,
   out.by_grip = mu.value * by_limit;
   if (damping == 0.0) return out;
   const Vector3 springs = out.force;
-  const Limited sum(springs - damping * motion.velocity,
-                    mu.value * load.grip * load.force);
+  const Within<3> sum(springs - damping * motion.velocity,
+                      mu.value * load.grip * load.force);
   out.force = sum.value;
   out.slips = out.slips || sum.is_cut;
   out.damper_power = (springs - out.force).dot(motion.velocity);
@@ -214,11 +194,10 @@ ShellResponse LoadShells::evaluate(const ShellMemory& memory,
   out.by_velocity =
       sum.by_value * (out.by_velocity - damping * Matrix3::Identity());
   out.by_velocity +=
-      load.grip * load.force * sum.by_limit * mu_by_velocity.transpose();
-  out.by_load =
-      sum.by_value * out.by_load + mu.value * load.grip * sum.by_limit;
+      load.grip * load.force * sum.by_most * mu_by_velocity.transpose();
+  out.by_load = sum.by_value * out.by_load + mu.value * load.grip * sum.by_most;
   out.by_grip =
-      sum.by_value * out.by_grip + mu.value * load.force * sum.by_limit;
+      sum.by_value * out.by_grip + mu.value * load.force * sum.by_most;
   return out;
 }
 

@@ -156,7 +156,7 @@ void PointLaw::add_friction(const PointMotion& motion,
   ShellLoad load = find_shell_load(motion, elastic);
   load.grip = pressed.force / N;
   const double r_e = find_spin_radius(motion, N);
-  const double turn = find_turn(memory, frame, motion.turns);
+  const double turn = n.dot(find_turn_W(memory, motion.turns));
   ShellMotion slip;
   slip.increment << frame.plane_W.transpose() * motion.increment_W, r_e * turn;
   slip.velocity << frame.plane_W.transpose() * motion.velocity_W,

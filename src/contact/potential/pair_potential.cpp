@@ -51,6 +51,16 @@ Matrix6 shift(const Vector3& d) {
   return T;
 }
 
+// In the body's frame.
+Matrix3 find_moving_turns(const Shape& shape) {
+  if (std::holds_alternative<Sphere>(shape.kind)) return Matrix3::Zero();
+  const bool is_round = std::holds_alternative<Capsule>(shape.kind) ||
+                        std::holds_alternative<Cylinder>(shape.kind);
+  if (!is_round) return Matrix3::Identity();
+  const Vector3 axis = shape.X_BS.R.col(2);
+  return Matrix3::Identity() - axis * axis.transpose();
+}
+
 Vector3 find_middle(const Polytope& polytope) {
   Vector3 sum = Vector3::Zero();
   for (const Vector3& x : polytope.corners()) sum += x;
@@ -64,7 +74,7 @@ bool PairPotential::suits(const ShapeKind& A, const ShapeKind& B) {
     return !std::holds_alternative<HalfSpace>(shape);
   };
   return (is_solid(A) && is_solid(B) && (is_bounded(A) || is_bounded(B))) ||
-         RoundPair::suits(A, B);
+         RoundPair::suits(A, B) || HertzPair::suits(A, B);
 }
 
 PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
@@ -74,6 +84,12 @@ PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
       modulus_(modulus) {
   LIMBER_EXPECT(suits(A.kind, B.kind));
   LIMBER_EXPECT(modulus > 0.0);
+  turns_A_ = find_moving_turns(A);
+  turns_B_ = find_moving_turns(B);
+  if (HertzPair::suits(A.kind, B.kind)) {
+    point_.emplace(A.kind, B.kind, modulus);
+    return;
+  }
   if (RoundPair::suits(A.kind, B.kind)) {
     round_.emplace(A.kind, B.kind);
     return;
@@ -115,22 +131,10 @@ std::optional<PairMoments> PairPotential::find_moments(
                 : find_flat_moments(X_A, X_B, has_derivatives);
 }
 
-Patch PairPotential::evaluate(const joints::PairBodies& bodies,
-                              bool has_derivatives,
-                              const Vector3& shift_W) const {
+Patch PairPotential::press(const Pose& X_A, const Pose& X_B,
+                           bool has_derivatives) const {
+  if (point_) return point_->evaluate(X_A, X_B);
   Patch out;
-  const Pose X_WA{bodies.A.R_WB, bodies.A.p_WB};
-  const Pose X_WB{bodies.B.R_WB, bodies.B.p_WB};
-  // Relative to a body's place, then to the overlap, so that the distance from
-  // the world's origin takes no digits.
-  const Vector3 near = is_B_bounded_ ? X_WB.p : X_WA.p;
-  const auto place = [](const Pose& X_WB_, const Pose& X_BS,
-                        const Vector3& from) {
-    return Pose{X_WB_.R * X_BS.R, (X_WB_.p - from) + X_WB_.R * X_BS.p};
-  };
-  const Pose X_A = place(X_WA, X_AS_, near);
-  Pose X_B = place(X_WB, X_BS_, near);
-  X_B.p += shift_W;
   const auto moments = find_moments(X_A, X_B, has_derivatives);
   if (!moments || !(moments->of_A.M > 0.0) || !(moments->of_B.M > 0.0)) {
     return out;
@@ -142,12 +146,33 @@ Patch PairPotential::evaluate(const joints::PairBodies& bodies,
   const Half B = weigh(moments->of_B, c);
   const double load = A.load + B.load;
   const Vector3 centre = (A.moved + B.moved) / load;
-  out.centre_W = near + moments->o + centre;
+  out.centre_W = moments->o + centre;
   out.spread_W = (A.spread + B.spread) / load - centre * centre.transpose();
   out.energy = 0.5 * (A.energy + B.energy);
   const Matrix6 T = shift(centre);
   out.gradient_W = 0.5 * T.transpose() * (A.gradient + B.gradient);
   out.hessian_W = 0.5 * T.transpose() * (A.hessian + B.hessian) * T;
+  return out;
+}
+
+Patch PairPotential::evaluate(const joints::PairBodies& bodies,
+                              bool has_derivatives,
+                              const Vector3& shift_W) const {
+  const Pose X_WA{bodies.A.R_WB, bodies.A.p_WB};
+  const Pose X_WB{bodies.B.R_WB, bodies.B.p_WB};
+  // Relative to a body's place, then to the overlap, so that the distance from
+  // the world's origin takes no digits.
+  const Vector3 near = is_B_bounded_ ? X_WB.p : X_WA.p;
+  const auto place = [](const Pose& X_WB_, const Pose& X_BS,
+                        const Vector3& from) {
+    return Pose{X_WB_.R * X_BS.R, (X_WB_.p - from) + X_WB_.R * X_BS.p};
+  };
+  Pose X_B = place(X_WB, X_BS_, near);
+  X_B.p += shift_W;
+  Patch out = press(place(X_WA, X_AS_, near), X_B, has_derivatives);
+  out.centre_W += near;
+  out.turns_A_W = X_WA.R * turns_A_ * X_WA.R.transpose();
+  out.turns_B_W = X_WB.R * turns_B_ * X_WB.R.transpose();
   return out;
 }
 

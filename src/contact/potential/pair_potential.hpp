@@ -5,31 +5,12 @@
 
 #include "limber/common/types.hpp"
 #include "limber/contact/potential/depth_moments.hpp"
+#include "limber/contact/potential/hertz_pair.hpp"
+#include "limber/contact/potential/patch.hpp"
 #include "limber/contact/potential/round_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
-
-/// The touch of two solids, of one potential, world axes; motions (u, theta)
-/// and wrenches (force, moment) about the centre of pressure.
-struct Patch {
-  bool touches = false;
-  double energy = 0.0;                 ///< W [J]
-  Vector3 centre_W = Vector3::Zero();  ///< of pressure [m]
-  /// dW by a motion of B against A: minus the elastic wrench on B [N, N m].
-  Vector6 gradient_W = Vector6::Zero();
-  /// Its derivative, symmetric [N/m, N; N, N m].
-  Matrix6 hessian_W = Matrix6::Zero();
-  Matrix3 spread_W = Matrix3::Zero();  ///< second moments of pressure / N [m^2]
-  double depth = 0.0;                  ///< largest [m]
-
-  /// From A to B, unit [-].
-  [[nodiscard]] Vector3 normal_W() const {
-    return -gradient_W.head<3>().normalized();
-  }
-  /// N, elastic [N].
-  [[nodiscard]] double load() const { return gradient_W.head<3>().norm(); }
-};
 
 /// Elastic contact of two convex bodies as one potential of their relative
 /// pose: no rule asks which feature is nearest.
@@ -37,7 +18,7 @@ struct Patch {
 /// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
 ///            that of a round punch [@johnson1985]; f = 1 of polyhedra, else of
-///            RoundPair
+///            RoundPair; of balls as HertzPair
 /// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
@@ -54,10 +35,13 @@ class PairPotential {
 
   [[nodiscard]] double modulus() const { return modulus_; }
 
-  /// Two boxes, a box and a half space, or as RoundPair.
+  /// Two boxes, a box and a half space, or as RoundPair or HertzPair.
   [[nodiscard]] static bool suits(const ShapeKind& A, const ShapeKind& B);
 
  private:
+  // From the origin of both shapes' poses.
+  [[nodiscard]] Patch press(const Pose& X_A, const Pose& X_B,
+                            bool has_derivatives) const;
   [[nodiscard]] std::optional<PairMoments> find_moments(
       const Pose& X_A, const Pose& X_B, bool has_derivatives) const;
   [[nodiscard]] std::optional<PairMoments> find_flat_moments(
@@ -66,6 +50,10 @@ class PairPotential {
   std::optional<ConvexSolid> A_;
   std::optional<ConvexSolid> B_;
   std::optional<RoundPair> round_;
+  std::optional<HertzPair> point_;
+  // See Patch, in the bodies' frames.
+  Matrix3 turns_A_ = Matrix3::Identity();
+  Matrix3 turns_B_ = Matrix3::Identity();
   bool is_B_bounded_;
   Pose X_AS_;
   Pose X_BS_;

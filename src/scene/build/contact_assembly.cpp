@@ -12,7 +12,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
@@ -118,15 +118,6 @@ std::vector<contact::ConvexSolid> find_solids(const contact::Shape& shape) {
   if (skin == nullptr) return {};
   const flexbody::ContactSurface& surface = (*skin)->surface();
   return contact::split_mesh(surface.x_B, surface.faces);
-}
-
-std::shared_ptr<const joints::PairInteraction> make_law(
-    const contact::ContactSide& A, const contact::ContactSide& B,
-    const contact::ContactParameters& parameters) {
-  if (contact::PatchPair::suits(A, B, parameters)) {
-    return std::make_shared<const contact::PatchPair>(A, B, parameters);
-  }
-  return std::make_shared<const contact::ContactPair>(A, B, parameters);
 }
 
 std::string describe_pair(const Scene& scene, const TouchingPair& pair) {
@@ -256,7 +247,8 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
   const std::string name = A.name + "/" + B.name;
   contact::ShapePair shapes(A.side.shape, B.side.shape);
   const dynamics::PairIndex pair = builder_.add_pair(
-      name, A.body, B.body, make_law(A.side, B.side, make_parameters(options)));
+      name, A.body, B.body,
+      contact::make_contact(A.side, B.side, make_parameters(options)));
   placed.push_back({name, std::move(shapes), options.radius, touching, pair});
 }
 

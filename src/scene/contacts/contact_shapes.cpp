@@ -34,6 +34,8 @@ contact::ContactParameters make_parameters(const ContactOptions& options) {
   friction.excess =
       options.static_friction.value_or(friction.sliding) - friction.sliding;
   friction.speed = options.stribeck_speed.value_or(friction.speed);
+  parameters.rolling_friction =
+      options.rolling_friction.value_or(parameters.rolling_friction);
   parameters.restitution = options.restitution.value_or(parameters.restitution);
   parameters.radius = options.radius;
   parameters.stiffness = options.stiffness;

@@ -21,6 +21,7 @@ ContactOptions read_options(TomlTable& table) {
   options.friction = table.number("friction", kNonNegative);
   options.static_friction = table.number("static_friction", kNonNegative);
   options.stribeck_speed = table.number("stribeck_speed", kPositive);
+  options.rolling_friction = table.number("rolling_friction", kNonNegative);
   options.restitution = table.number("restitution", {0.0, 1.0, false, false});
   options.damping = table.number("damping", kNonNegative);
   options.radius = table.number("radius", kPositive);
@@ -42,6 +43,7 @@ ContactOptions merge(const ContactOptions& own,
   fill(options.friction, otherwise.friction);
   fill(options.static_friction, otherwise.static_friction);
   fill(options.stribeck_speed, otherwise.stribeck_speed);
+  fill(options.rolling_friction, otherwise.rolling_friction);
   fill(options.radius, otherwise.radius);
   fill(options.stiffness, otherwise.stiffness);
   // Both say how much energy is lost.

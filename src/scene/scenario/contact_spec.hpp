@@ -56,6 +56,7 @@ struct ContactOptions {
   std::optional<double> friction;         ///< of sliding, >= 0 [-]
   std::optional<double> static_friction;  ///< >= friction [-]
   std::optional<double> stribeck_speed;   ///< > 0 [m/s]
+  std::optional<double> rolling_friction;  ///< arm, >= 0 [m]
   std::optional<double> restitution;      ///< in [0, 1] [-]
   std::optional<double> damping;          ///< in its place, >= 0 [s/m]
   std::optional<double> radius;           ///< R_e > 0 [m]

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
@@ -37,7 +37,7 @@ struct BallOnFloor {
     constexpr double kFixed = std::numeric_limits<double>::infinity();
     builder.add_pair(
         "floor/ball", dynamics::kWorld, ball,
-        std::make_shared<ContactPair>(
+        make_contact(
             ContactSide{Shape{HalfSpace{}, {}}, kSteel, kFixed},
             ContactSide{Shape{Sphere{kBallRadius}, {}}, kSteel, kBallMass},
             parameters));

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/analysis/linear_system.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -58,9 +59,8 @@ Scene make_ball_and_floor(const ContactParameters& parameters, double gap,
                           const Vector3& velocity) {
   SystemBuilder builder;
   const auto ball = builder.add_rigid_body("ball", ball_inertia());
-  builder.add_pair(
-      "floor/ball", kWorld, ball,
-      std::make_shared<ContactPair>(floor_side(), ball_side(), parameters));
+  builder.add_pair("floor/ball", kWorld, ball,
+                   make_contact(floor_side(), ball_side(), parameters));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
   scene.state.bodies[0].p_WB = {0.1, 0.2, kRadius + gap};
@@ -73,9 +73,8 @@ Scene make_two_balls(const ContactParameters& parameters, double speed) {
   SystemBuilder builder;
   const auto a = builder.add_rigid_body("a", ball_inertia());
   const auto b = builder.add_rigid_body("b", ball_inertia());
-  builder.add_pair(
-      "a/b", a, b,
-      std::make_shared<ContactPair>(ball_side(), ball_side(), parameters));
+  builder.add_pair("a/b", a, b,
+                   make_contact(ball_side(), ball_side(), parameters));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
   const Vector3 way = Vector3(1.0, -2.0, 0.5).normalized();
@@ -310,7 +309,7 @@ TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
   const auto box = builder.add_rigid_body("box", {1.0, inertia});
   builder.add_pair(
       "floor/box", kWorld, box,
-      std::make_shared<ContactPair>(
+      make_contact(
           floor_side(),
           ContactSide{Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0, inertia},
           ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.5}));
@@ -336,7 +335,7 @@ TEST(ContactPair, LetsACylinderLeapOffItsRimAsRestitutionSays) {
   const auto rod = builder.add_rigid_body("rod", {mass, inertias});
   builder.add_pair(
       "table/rod", kWorld, rod,
-      std::make_shared<ContactPair>(
+      make_contact(
           ContactSide{Shape{Box{{0.5, 0.5, 0.1}},
                             Pose{Matrix3::Identity(), {0.0, 0.0, -0.1}}},
                       kSteel, kInfinity},
@@ -378,7 +377,7 @@ Scene make_block_on_slope(double amplitude) {
   const auto block = builder.add_rigid_body("block", {mass, inertia});
   builder.add_pair(
       "floor/block", kWorld, block,
-      std::make_shared<ContactPair>(
+      make_contact(
           floor_side(),
           ContactSide{Shape{Box{half}, {}}, kSteel, mass, inertia},
           ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.1}));

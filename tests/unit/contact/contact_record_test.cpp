@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "unit/contact/ball_on_floor.hpp"
@@ -90,8 +91,7 @@ dynamics::RunRecord strike(const Company& company,
   const auto ball = add("ball", kMass);
   const auto target = add("target", kMass);
   builder.add_pair("target/ball", target, ball,
-                   std::make_shared<ContactPair>(side(kMass), side(kMass),
-                                                 company.parameters));
+                   make_contact(side(kMass), side(kMass), company.parameters));
   if (company.has_other) add("other", 1e4);
   const dynamics::SystemModel model = builder.build();
   dynamics::SystemState state = dynamics::make_state(model);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -145,10 +146,9 @@ TEST(FarPairs, TouchOnTimeAtAnySpeedAndStep) {
       dynamics::SystemBuilder builder;
       const BodyIndex a = add_body(builder, "a");
       const BodyIndex b = add_body(builder, "b");
-      builder.add_pair(
-          "a/b", a, b,
-          std::make_shared<ContactPair>(
-              make_ball(0.01, 1.0), make_ball(0.01, 1.0), ContactParameters{}));
+      builder.add_pair("a/b", a, b,
+                       make_contact(make_ball(0.01, 1.0), make_ball(0.01, 1.0),
+                                    ContactParameters{}));
       const dynamics::SystemModel model = builder.build();
       dynamics::SystemState state = dynamics::make_state(model);
       state.bodies[1].p_WB = {50.0, 0.0, 0.0};
@@ -169,10 +169,9 @@ TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
     dynamics::SystemBuilder builder;
     const BodyIndex a = add_body(builder, "a");
     const BodyIndex b = add_body(builder, "b");
-    builder.add_pair(
-        "a/b", a, b,
-        std::make_shared<ContactPair>(
-            make_ball(size, 1.0), make_ball(size, 1.0), ContactParameters{}));
+    builder.add_pair("a/b", a, b,
+                     make_contact(make_ball(size, 1.0), make_ball(size, 1.0),
+                                  ContactParameters{}));
     const dynamics::SystemModel model = builder.build();
     dynamics::SystemState state = dynamics::make_state(model);
     state.bodies[1].p_WB = {1.999 * size, 0.0, 0.0};
@@ -196,10 +195,10 @@ TEST(FarPairs, TouchOnTimeAfterAFall) {
     dynamics::SystemBuilder builder;
     builder.set_gravity({0.0, 0.0, -10.0});
     const BodyIndex ball = add_body(builder, "ball");
-    builder.add_pair("floor/ball", kWorld, ball,
-                     std::make_shared<ContactPair>(
-                         ContactSide{Shape{HalfSpace{}, {}}, kSteel, kFixed},
-                         make_ball(0.1, 1.0), ContactParameters{}));
+    builder.add_pair(
+        "floor/ball", kWorld, ball,
+        make_contact(ContactSide{Shape{HalfSpace{}, {}}, kSteel, kFixed},
+                     make_ball(0.1, 1.0), ContactParameters{}));
     const dynamics::SystemModel model = builder.build();
     dynamics::SystemState state = dynamics::make_state(model);
     state.bodies[0].p_WB = {0.0, 0.0, 5.1};
@@ -214,10 +213,10 @@ TEST(FarPairs, TouchOnTimeWhereOneTurns) {
     for (const double step : {0.05, 0.004}) {  // of a turn's radian
       dynamics::SystemBuilder builder;
       const BodyIndex arm = add_body(builder, "arm");
-      builder.add_pair("arm/ball", arm, kWorld,
-                       std::make_shared<ContactPair>(
-                           make_ball(0.02, 1.0, {1.0, 0.0, 0.0}),
-                           make_ball(0.02, kFixed), ContactParameters{}));
+      builder.add_pair(
+          "arm/ball", arm, kWorld,
+          make_contact(make_ball(0.02, 1.0, {1.0, 0.0, 0.0}),
+                       make_ball(0.02, kFixed), ContactParameters{}));
       dynamics::SystemModel model = builder.build();
       dynamics::SystemState state = dynamics::make_state(model);
       // The other is at 2 rad on the circle about the arm's middle.
@@ -287,7 +286,7 @@ TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
         "bell", make_breathing_body(kOmega), dynamics::Fidelity::coupled, {});
     builder.add_pair(
         "bell/ball", bell, kWorld,
-        std::make_shared<ContactPair>(
+        make_contact(
             ContactSide{Shape{std::make_shared<const Skin>(surface), {}},
                         kSteel, 1.0},
             make_ball(0.05, kFixed), ContactParameters{}));

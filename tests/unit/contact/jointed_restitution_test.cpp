@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
@@ -120,10 +120,10 @@ Parting run(const Strike& strike, double e) {
   const ContactParameters parameters{.restitution = e};
   if (strike.has_names_swapped) {
     builder.add_pair("p", ball, links.back(),
-                     std::make_shared<ContactPair>(sphere, rod, parameters));
+                     make_contact(sphere, rod, parameters));
   } else {
     builder.add_pair("p", links.back(), ball,
-                     std::make_shared<ContactPair>(rod, sphere, parameters));
+                     make_contact(rod, sphere, parameters));
   }
   const dynamics::SystemModel model = builder.build();
   dynamics::SystemState state = make_state(model);

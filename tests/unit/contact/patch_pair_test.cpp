@@ -319,8 +319,8 @@ TEST(PatchPair, SuitsSolidsWithAMaterialAndNoParametersOfAPoint) {
   EXPECT_FALSE(PatchPair::suits(plane, bare, {}));
   EXPECT_FALSE(PatchPair::suits(plane, plane, {}));
   EXPECT_TRUE(PatchPair::suits(ball, box, {}));
-  EXPECT_FALSE(PatchPair::suits(ball, plane, {}));
-  EXPECT_FALSE(PatchPair::suits(ball, ball, {}));
+  EXPECT_TRUE(PatchPair::suits(ball, plane, {}));
+  EXPECT_TRUE(PatchPair::suits(ball, ball, {}));
   EXPECT_FALSE(PatchPair::suits(plane, box, {.stiffness = 1e5}));
   EXPECT_FALSE(PatchPair::suits(plane, box, {.radius = 0.1}));
   EXPECT_FALSE(PatchPair::suits(plane, box, {.damping = 0.1}));

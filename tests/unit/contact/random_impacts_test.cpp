@@ -11,10 +11,11 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/pairs/touching.hpp"
 #include "unit/contact/draw.hpp"
 
 /// Impacts of random shapes, sizes, masses, speeds and steps.
@@ -72,7 +73,7 @@ Impact draw_impact(unsigned seed, bool strikes_with_ball) {
   const auto ball = builder.add_rigid_body("ball", {ball_mass, ball_inertia});
   const Shape struck = draw_shape(draw, kind, size);
   const int striker = static_cast<int>(draw.between(1.0, 4.0));
-  const auto contact = std::make_shared<ContactPair>(
+  const auto contact = make_contact(
       ContactSide{struck, soft, mass, inertia},
       ContactSide{strikes_with_ball ? Shape{Sphere{radius}, {}}
                                     : draw_shape(draw, striker, radius),
@@ -98,8 +99,8 @@ Impact draw_impact(unsigned seed, bool strikes_with_ball) {
     joints::PairBody target;
     joints::PairBody flying;
     flying.p_WB = distance * way;
-    distance -=
-        contact->find_clearance({target, flying}) - 5.0 * speed * out.step;
+    distance -= contact->touching()->find_clearance({target, flying}) -
+                5.0 * speed * out.step;
   }
   out.state.bodies[1].p_WB = distance * way;
   out.state.bodies[1].v_WB_W = -speed * way;
@@ -112,9 +113,9 @@ Impact draw_impact(unsigned seed, bool strikes_with_ball) {
 }
 
 // Steps of up to thirty durations. Some are refused in words: where a body
-// would pass through the other or spin by radians a step, and where edges slide
-// on rims, on which Newton's method may fail. Features of edges and rims that
-// come and go gain energy at any step, which the run warns of.
+// would pass through the other, as one does that meets a soft one at 80 m/s and
+// sinks in by its own size, or spin by radians a step, and where Newton's
+// method fails.
 void expect_good_impacts(unsigned hundred, bool strike_with_ball,
                          int most_refused, int most_gains) {
   int refused = 0;
@@ -160,7 +161,7 @@ void expect_good_impacts(unsigned hundred, bool strike_with_ball,
 class RandomImpact : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(RandomImpact, OfABallGainsNoEnergyKeepsMomentumAndIsNotMissed) {
-  expect_good_impacts(GetParam(), true, 5, 0);
+  expect_good_impacts(GetParam(), true, 10, 0);
 }
 
 TEST_P(RandomImpact, OfTwoBodiesKeepsMomentumIsNotMissedAndWarnsOfAGain) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/contact/make_contact.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "unit/contact/ball_on_floor.hpp"
@@ -52,11 +53,10 @@ struct RestingBall {
     constexpr double kFixed = std::numeric_limits<double>::infinity();
     builder.add_pair(
         "floor/ball", dynamics::kWorld, ball,
-        std::make_shared<ContactPair>(
-            ContactSide{Shape{HalfSpace{}, {}}, test::kSteel, kFixed},
-            ContactSide{Shape{Sphere{kBallRadius}, {}}, test::kSteel,
-                        kBallMass},
-            ContactParameters{.friction = {.sliding = friction}}));
+        make_contact(ContactSide{Shape{HalfSpace{}, {}}, test::kSteel, kFixed},
+                     ContactSide{Shape{Sphere{kBallRadius}, {}}, test::kSteel,
+                                 kBallMass},
+                     ContactParameters{.friction = {.sliding = friction}}));
     builder.add_load("moment", builder.attach_frame("middle", ball, {}),
                      Vector3::Zero(), {0.0, 0.0, moment},
                      dynamics::LoadFrame::body, dynamics::Constant{});

@@ -13,6 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/patch_pair.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -155,9 +156,8 @@ Scene make_scene(const Column& column, double restitution,
   }
   const auto add_pair = [&](const std::string& name, BodyIndex A, BodyIndex B,
                             const ContactSide& a, const ContactSide& b) {
-    const auto law = has_names_swapped
-                         ? std::make_shared<ContactPair>(b, a, parameters)
-                         : std::make_shared<ContactPair>(a, b, parameters);
+    const auto law = has_names_swapped ? make_contact(b, a, parameters)
+                                       : make_contact(a, b, parameters);
     if (has_names_swapped) std::swap(A, B);
     builder.add_pair(name, A, B, law);
   };

@@ -35,7 +35,7 @@ TEST(FrictionMemory, IsAsItWasWithoutMotion) {
   EXPECT_EQ(shells.lowest, -3.0);
   EXPECT_NEAR((shells.shells[4].spring - Vector3(1.5, -2.0, 0.5)).norm(), 0.0,
               1e-14);
-  EXPECT_EQ(find_turn({}, frame, turns), 0.0);
+  EXPECT_EQ(find_turn_W({}, turns), Vector3(Vector3::Zero()));
 }
 
 // With both bodies and the normal it turns as a whole.
@@ -50,7 +50,7 @@ TEST(FrictionMemory, TurnsWithBothBodies) {
   const Vector3 before_W =
       to_world(frame, recall_friction(memory, frame, turns));
   EXPECT_NEAR((to_world(turned, shells) - R * before_W).norm(), 0.0, 1e-13);
-  EXPECT_NEAR(find_turn(memory, turned, later), 0.0, 1e-14);
+  EXPECT_NEAR(find_turn_W(memory, later).norm(), 0.0, 1e-14);
 }
 
 // About the normal by half of the turn of one body, with its length.
@@ -66,7 +66,8 @@ TEST(FrictionMemory, TurnsByTheMeanOfBothBodies) {
         to_world(frame, recall_friction(memory, frame, later));
     EXPECT_NEAR((now_W - turn(0.5 * angle, kNormal) * before_W).norm(), 0.0,
                 1e-13);
-    EXPECT_NEAR(find_turn(memory, frame, later), angle, 1e-14);
+    EXPECT_NEAR((find_turn_W(memory, later) - angle * kNormal).norm(), 0.0,
+                1e-14);
   }
 }
 
@@ -78,14 +79,14 @@ TEST(FrictionMemory, DoesNotDependOnNames) {
   const BodyTurns later{turn(0.4, {1, 2, 3}), turn(-0.6, {2, 1, 1})};
   FrictionMemory memory = make_memory(frame, turns);
   const Vector3 now_W = to_world(frame, recall_friction(memory, frame, later));
-  const double angle = find_turn(memory, frame, later);
+  const Vector3 turned_W = find_turn_W(memory, later);
   std::swap(memory.turn_A, memory.turn_B);
   for (auto& spring : memory.springs) spring.force_W *= -1.0;
   const BodyTurns swapped{later.R_WB, later.R_WA};
   const Vector3 swapped_W =
       to_world(other, recall_friction(memory, other, swapped));
   EXPECT_NEAR((now_W + swapped_W).norm(), 0.0, 1e-13);
-  EXPECT_NEAR(find_turn(memory, other, swapped), angle, 1e-14);
+  EXPECT_NEAR((find_turn_W(memory, swapped) + turned_W).norm(), 0.0, 1e-14);
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "limber/contact/contact_side.hpp"
+#include "limber/contact/law/contact_parameters.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::contact {
+
+/// The law between two bodies that may touch: a PatchPair where both have a
+/// potential, else a ContactPair.
+/// @throws InputError for parameters outside their range, or that these shapes
+/// do not have.
+[[nodiscard]] std::shared_ptr<const joints::PairInteraction> make_contact(
+    const ContactSide& A, const ContactSide& B,
+    const ContactParameters& parameters);
+
+}  // namespace limber::contact
