@@ -73,7 +73,7 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       potentials_(make_potentials(A_, parts_A_, B_, parts_B_)),
       size_(contact::find_size(A_.shape, B_.shape)),
       law_(parameters, *find_pair_moduli(A_.material, B_.material),
-           HertzPair::suits(A_.shape.kind, B_.shape.kind), size_) {
+           !potentials_.empty() && potentials_.front().is_point(), size_) {
   LIMBER_EXPECT(suits(A_, B_, parameters));
   (void)check_masses(A_, B_);
 }

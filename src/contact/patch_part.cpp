@@ -35,19 +35,19 @@ double find_area(const flexbody::ContactPart& part) {
 }  // namespace
 
 PatchPart::PatchPart(const Shape& shape)
-    : ball_{shape.X_BS.p, find_extent({shape.kind, {}}, {})}, shape_(shape) {
-  if (is_solid(shape.kind)) placed_ = {ConvexSolid(shape.kind), shape.X_BS};
-}
+    : ball_{shape.X_BS.p, find_extent({shape.kind, {}}, {})},
+      body_{make_body(shape.kind), shape.X_BS},
+      shape_(shape) {}
 
-PatchPart::PatchPart(const PlacedSolid& solid)
-    : ball_{solid.X_BS * solid.solid.ball().centre, solid.solid.ball().radius},
-      placed_(solid) {}
+PatchPart::PatchPart(const ConvexSolid& solid, const Pose& X_PS)
+    : ball_{X_PS * solid.ball().centre, solid.ball().radius},
+      body_{solid, X_PS} {}
 
 PatchPart::PatchPart(const flexbody::ContactPart& part)
-    : PatchPart(PlacedSolid{
+    : PatchPart(
           ConvexSolid::make_slab(find_corners(part, find_frame(part.normal_B)),
                                  part.rim, part.depth),
-          find_frame(part.normal_B)}) {
+          find_frame(part.normal_B)) {
   centre_B_ = part.centre_B;
   motion_B_ = part.motion_B;
   area_ = find_area(part);

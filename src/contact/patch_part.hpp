@@ -3,30 +3,33 @@
 
 #include <optional>
 
-#include "limber/contact/potential/convex_solid.hpp"
+#include "limber/contact/potential/body_kind.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
 
-/// A solid of one side of a contact, in a frame P of its own: that of its body,
-/// or of the part of a flexible surface that moves as one piece. Immutable.
+/// A convex body of one side of a contact, in a frame P of its own: that of its
+/// body, or of the part of a flexible surface that moves as one piece.
+/// Immutable.
 ///
 /// Equation   p_P = p_B + R_B (c + u), R_P = R_B exp(theta), (u, theta) =
 ///            motion_B eta
 class PatchPart {
  public:
   explicit PatchPart(const Shape& shape);
-  explicit PatchPart(const PlacedSolid& solid);
+  PatchPart(const ConvexSolid& solid, const Pose& X_PS);
   explicit PatchPart(const flexbody::ContactPart& part);
 
   /// About it, in P; of a half space the radius is infinite.
   [[nodiscard]] const ConvexSolid::Ball& ball() const { return ball_; }
-  /// In P; none of a round shape.
-  [[nodiscard]] const std::optional<PlacedSolid>& placed() const {
-    return placed_;
+  /// In P.
+  [[nodiscard]] const PlacedBody& body() const { return body_; }
+  /// Its solid; null of a round shape.
+  [[nodiscard]] const ConvexSolid* solid() const {
+    return std::get_if<ConvexSolid>(&body_.kind);
   }
-  /// In P; of a flexible part nothing.
+  /// In P; of parts of surfaces and meshes nothing.
   [[nodiscard]] const std::optional<Shape>& shape() const { return shape_; }
   /// Of a flexible part along its normal, the z axis of S; 0 of others [m/N].
   [[nodiscard]] double residual() const { return residual_; }
@@ -51,7 +54,7 @@ class PatchPart {
   [[nodiscard]] Vector6 move(const double* eta) const;
 
   ConvexSolid::Ball ball_;
-  std::optional<PlacedSolid> placed_;
+  PlacedBody body_;
   std::optional<Shape> shape_;
   Vector3 centre_B_ = Vector3::Zero();
   MatrixX motion_B_ = MatrixX(6, 0);

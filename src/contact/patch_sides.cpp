@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/potential/pair_potential.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {
@@ -22,9 +23,13 @@ double find_modulus(const ContactSide& A, const ContactSide& B) {
   return moduli->normal;
 }
 
-const Skin* find_skin(const ContactSide& side) {
-  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&side.shape.kind);
+const Skin* find_skin(const ShapeKind& shape) {
+  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&shape);
   return skin == nullptr ? nullptr : skin->get();
+}
+
+const Skin* find_skin(const ContactSide& side) {
+  return find_skin(side.shape.kind);
 }
 
 // R, and what 2 R_res has above the compliance of the own half space, 1 / (2 E'
@@ -41,12 +46,26 @@ double find_flexibility(const PatchPart& part,
   return part.flexibility() + std::max(2.0 * part.residual() - own, 0.0);
 }
 
-// A solid with flat faces or several, or a flexible surface with parts.
+// Flat faces alone: a solid or several, or a flexible surface with parts.
 bool is_flat(const ContactSide& side) {
   if (!side.solids.empty()) return true;
   const Skin* skin = find_skin(side);
   return skin == nullptr ? is_solid(side.shape.kind)
                          : !skin->surface().parts.empty();
+}
+
+// Whether these flat faces have a potential with a round shape. Hertz's law of
+// a ball on a flexible flat is exact, with the flexibility where it touches.
+bool suits_round(const ContactSide& flat, const ShapeKind& shape) {
+  if (find_skin(shape) != nullptr) return false;
+  const BodyKind body = make_body(shape);
+  const auto suits_body = [&](const ConvexSolid& solid) {
+    return PairPotential::suits(solid, body);
+  };
+  if (!flat.solids.empty()) return std::ranges::all_of(flat.solids, suits_body);
+  if (find_skin(flat) == nullptr)
+    return suits_body(ConvexSolid(flat.shape.kind));
+  return !std::holds_alternative<Sphere>(shape);
 }
 
 std::size_t count_parts(const ContactSide& side) {
@@ -60,14 +79,17 @@ bool suits(const ContactSide& A, const ContactSide& B) {
     return !std::holds_alternative<HalfSpace>(side.shape.kind);
   };
   if (count_parts(A) * count_parts(B) > kMostPairs) return false;
-  return (is_flat(A) && is_flat(B) && (is_bounded(A) || is_bounded(B))) ||
-         PairPotential::suits(A.shape.kind, B.shape.kind);
+  if (is_flat(A) && is_flat(B)) return is_bounded(A) || is_bounded(B);
+  if (is_flat(A)) return suits_round(A, B.shape.kind);
+  if (is_flat(B)) return suits_round(B, A.shape.kind);
+  return find_skin(A) == nullptr && find_skin(B) == nullptr &&
+         PairPotential::suits(make_body(A.shape.kind), make_body(B.shape.kind));
 }
 
 std::vector<PatchPart> make_parts(const ContactSide& side) {
   std::vector<PatchPart> parts;
   for (const ConvexSolid& solid : side.solids) {
-    parts.emplace_back(PlacedSolid{solid, side.shape.X_BS});
+    parts.emplace_back(solid, side.shape.X_BS);
   }
   if (!parts.empty()) return parts;
   const Skin* skin = find_skin(side);
@@ -85,14 +107,9 @@ std::vector<SeriesPotential> make_potentials(
   std::vector<SeriesPotential> potentials;
   for (const PatchPart& A : parts_A) {
     for (const PatchPart& B : parts_B) {
-      if (A.placed() && B.placed()) {
-        potentials.emplace_back(*A.placed(), *B.placed(), modulus,
-                                find_flexibility(A, side_A.material),
-                                find_flexibility(B, side_B.material));
-      } else {
-        LIMBER_EXPECT(A.shape() && B.shape());
-        potentials.emplace_back(*A.shape(), *B.shape(), modulus);
-      }
+      potentials.emplace_back(A.body(), B.body(), modulus,
+                              find_flexibility(A, side_A.material),
+                              find_flexibility(B, side_B.material));
     }
   }
   return potentials;

@@ -9,9 +9,9 @@
 
 namespace limber::contact {
 
-/// Whether both have a potential: as PairPotential, or flexible surfaces with
-/// parts, rigid meshes with solids and solids with flat faces, of which one is
-/// bounded; with 4096 pairs of parts at most.
+/// Whether both have a potential: as PairPotential, with parts of rigid meshes
+/// and of flexible surfaces as solids, but for balls on the latter; with 4096
+/// pairs of parts at most.
 [[nodiscard]] bool suits(const ContactSide& A, const ContactSide& B);
 
 /// One of a shape, those of a flexible surface or of a rigid mesh.

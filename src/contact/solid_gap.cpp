@@ -18,16 +18,18 @@ constexpr double kLevel = 1e-9;
 constexpr double kSmaller = 1.0 - 1e-6;
 
 bool is_plane(const PatchPart& part) {
-  return part.placed() && !part.placed()->solid.is_bounded();
+  return part.solid() != nullptr && !part.solid()->is_bounded();
 }
 
-Pose find_pose(const PlacedSolid& solid, const PairBody& frame) {
-  return Pose{frame.R_WB, frame.p_WB} * solid.X_BS;
+Pose find_pose(const PatchPart& part, const PairBody& frame) {
+  return Pose{frame.R_WB, frame.p_WB} * part.body().X_BS;
 }
 
 ConvexCore make_core(const PatchPart& part, const PairBody& frame) {
-  if (!part.placed()) return ConvexCore(PlacedShape(*part.shape(), frame));
-  return {part.placed()->solid.corners(), find_pose(*part.placed(), frame)};
+  if (part.solid() == nullptr) {
+    return ConvexCore(PlacedShape(*part.shape(), frame));
+  }
+  return {part.solid()->corners(), find_pose(part, frame)};
 }
 
 SolidGap make_gap(const ConvexCore& A, const ConvexCore& B, bool touches) {
@@ -64,9 +66,8 @@ SolidGap find_gap_to_plane(const Pose& plane, const PatchPart& part,
                            const PairBody& frame) {
   const Vector3 n = plane.R.col(2);
   const Vector3 on_B =
-      part.placed()
-          ? find_lowest_corner(part.placed()->solid,
-                               find_pose(*part.placed(), frame), n)
+      part.solid() != nullptr
+          ? find_lowest_corner(*part.solid(), find_pose(part, frame), n)
           : find_lowest_round(PlacedShape(*part.shape(), frame), n, kLevel);
   const double distance = n.dot(on_B - plane.p);
   return {n, on_B - distance * n, on_B, distance};
@@ -77,11 +78,10 @@ SolidGap find_gap_to_plane(const Pose& plane, const PatchPart& part,
 SolidGap find_gap(const PatchPart& A, const PatchPart& B,
                   const joints::PairBodies& frames) {
   if (is_plane(A)) {
-    return find_gap_to_plane(find_pose(*A.placed(), frames.A), B, frames.B);
+    return find_gap_to_plane(find_pose(A, frames.A), B, frames.B);
   }
   if (is_plane(B)) {
-    const SolidGap gap =
-        find_gap_to_plane(find_pose(*B.placed(), frames.B), A, frames.A);
+    const SolidGap gap = find_gap_to_plane(find_pose(B, frames.B), A, frames.A);
     return {-gap.normal_W, gap.on_B, gap.on_A, gap.distance};
   }
   const ConvexCore core_A = make_core(A, frames.A);

@@ -84,12 +84,6 @@ class ConvexSolid {
   std::shared_ptr<const Data> data_;
 };
 
-/// A solid in the frame of a body, or of a part of it.
-struct PlacedSolid {
-  ConvexSolid solid;
-  Pose X_BS;
-};
-
 /// Whether a shape is a half space or a polyhedron.
 [[nodiscard]] bool is_solid(const ShapeKind& shape);
 

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <type_traits>
 #include <variant>
-
-#include "limber/common/errors.hpp"
 
 namespace limber::contact {
 namespace {
@@ -52,24 +50,6 @@ double find_nearest_v(const Vector& o, const Vector& w) {
 
 double clamp_to(const Span& span, double v) {
   return std::clamp(v, span.first, span.last);
-}
-
-// ---- z <= 0
-Depth find(const HalfSpace& /*shape*/, const Vector3& x) {
-  return {-x.z(), -Vector3::UnitZ(), power4(x.z())};
-}
-double deepest(const HalfSpace& /*shape*/, const StraightLine& line) {
-  return line.way.z() > 0.0 ? line.span.first : line.span.last;
-}
-Span part_within(const HalfSpace& /*shape*/, const StraightLine& line) {
-  const double m = line.way.z();
-  if (m == 0.0) return line.origin.z() < 0.0 ? line.span : Span{};
-  const double end = -line.origin.z() / m;
-  return intersect(line.span, m > 0.0 ? Span{-kFar, end} : Span{end, kFar});
-}
-void split(const HalfSpace& /*shape*/, const StraightLine& /*line*/,
-           const Span& part, LinePieces& out) {
-  out.add() = {0, part.last};
 }
 
 // ---- ball: phi = int 4 s^3 (R - s)^2 ds / (R - t)^2
@@ -244,125 +224,103 @@ void split(const Cylinder& shape, const StraightLine& line, const Span& part,
   }
 }
 
-// ---- box: face 2 k or 2 k + 1 of axis k
-struct FaceAlong {
-  int face = 0;
-  double depth = 0.0;  // at v = 0
-  double slope = 0.0;
-};
-using FacesAlong = std::array<FaceAlong, 6>;
+// ---- n . x from -w to w
+double find_half_width(const Sphere& shape, const Vector3& /*n*/) {
+  return shape.radius;
+}
+double find_half_width(const Capsule& shape, const Vector3& n) {
+  return shape.radius + shape.half_length * std::abs(n.z());
+}
+double find_half_width(const Cylinder& shape, const Vector3& n) {
+  return shape.radius * n.head<2>().norm() +
+         shape.half_length * std::abs(n.z());
+}
 
-Depth find(const Box& shape, const Vector3& x) {
-  Eigen::Index axis = 0;
-  const double t = (shape.half_size - x.cwiseAbs()).minCoeff(&axis);
-  return {t, -std::copysign(1.0, x[axis]) * Vector3::Unit(axis), power4(t)};
+// ---- as the round ones
+Depth find_of(const SolidField& solid, const Vector3& x, int face) {
+  return solid.find_depth(x, face);
 }
-FacesAlong list_faces(const Box& shape, const StraightLine& line) {
-  FacesAlong all;
-  for (int k = 0; k < 3; ++k) {
-    const double h = shape.half_size[k];
-    const std::size_t i = 2 * static_cast<std::size_t>(k);
-    all[i] = {2 * k, h - line.origin[k], -line.way[k]};
-    all[i + 1] = {2 * k + 1, h + line.origin[k], line.way[k]};
-  }
-  return all;
+template <typename Round>
+Depth find_of(const Round& shape, const Vector3& x, int /*face*/) {
+  return find(shape, x);
 }
-// The nearest at v, of several the one that is nearest behind v.
-FaceAlong find_nearest_face(const FacesAlong& all, double v) {
-  FaceAlong best = all[0];
-  for (const FaceAlong& face : all) {
-    const double ahead =
-        (face.depth + face.slope * v) - (best.depth + best.slope * v);
-    if (ahead < 0.0 || (ahead == 0.0 && face.slope < best.slope)) best = face;
-  }
-  return best;
+double deepest(const SolidField& solid, const StraightLine& line) {
+  return solid.find_deepest(line);
 }
-// The first face of less slope that becomes the nearest one, and where.
-LinePiece find_next_face(const FacesAlong& all, const FaceAlong& now) {
-  LinePiece next{-1, kFar};
-  double slope = 0.0;
-  for (const FaceAlong& face : all) {
-    if (!(face.slope < now.slope)) continue;
-    const double v = (face.depth - now.depth) / (now.slope - face.slope);
-    if (v < next.last || (v == next.last && face.slope < slope)) {
-      next = {face.face, v};
-      slope = face.slope;
-    }
-  }
-  return next;
+Span part_within(const SolidField& solid, const StraightLine& line) {
+  return solid.cut(line);
 }
-double deepest(const Box& shape, const StraightLine& line) {
-  const FacesAlong all = list_faces(shape, line);
-  FaceAlong now = find_nearest_face(all, line.span.first);
-  double v = line.span.first;
-  while (now.slope > 0.0) {
-    const LinePiece next = find_next_face(all, now);
-    v = std::max(v, next.last);
-    if (v >= line.span.last) return line.span.last;
-    now = all[static_cast<std::size_t>(next.face)];
-  }
-  return v;
-}
-Span part_within(const Box& shape, const StraightLine& line) {
-  Span part = line.span;
-  for (int k = 0; k < 3; ++k) {
-    part = intersect(
-        part, find_slab(line.origin[k], line.way[k], shape.half_size[k]));
-  }
-  return part;
-}
-void split(const Box& shape, const StraightLine& line, const Span& part,
+void split(const SolidField& solid, const StraightLine& line, const Span& part,
            LinePieces& out) {
-  const FacesAlong all = list_faces(shape, line);
-  FaceAlong now = find_nearest_face(all, part.first);
-  while (true) {
-    const LinePiece next = find_next_face(all, now);
-    if (next.face < 0 || next.last >= part.last) break;
-    if (next.last > part.first) out.add() = {now.face, next.last};
-    now = all[static_cast<std::size_t>(next.face)];
-  }
-  out.add() = {now.face, part.last};
+  solid.divide(line, part, out);
+}
+double find_t_of(const SolidField& solid, const Vector3& x) {
+  return solid.find_t(x);
+}
+template <typename Round>
+double find_t_of(const Round& shape, const Vector3& x) {
+  return find(shape, x).t;
+}
+Span find_extent_of(const SolidField& field, const Vector3& n) {
+  const ConvexSolid& solid = field.solid();
+  if (!solid.is_bounded()) return {-kFar, kFar};
+  return {solid.find_low(n), solid.find_high(n)};
+}
+template <typename Round>
+Span find_extent_of(const Round& shape, const Vector3& n) {
+  const double w = find_half_width(shape, n);
+  return {-w, w};
 }
 
-using SkinShape = std::shared_ptr<const Skin>;
-Depth find(const SkinShape& /*shape*/, const Vector3& /*x*/) { return {}; }
-double deepest(const SkinShape& /*shape*/, const StraightLine& /*line*/) {
-  return 0.0;
+DepthField::Kind make_field(const BodyKind& body) {
+  return std::visit(
+      [](const auto& shape) -> DepthField::Kind {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>,
+                                     ConvexSolid>) {
+          return SolidField(shape);
+        } else {
+          return shape;
+        }
+      },
+      body);
 }
-Span part_within(const SkinShape& /*shape*/, const StraightLine& /*line*/) {
-  return {};
-}
-void split(const SkinShape& /*shape*/, const StraightLine& /*line*/,
-           const Span& /*part*/, LinePieces& /*out*/) {}
 
 }  // namespace
 
-DepthField::DepthField(const ShapeKind& shape)
-    : shape_(shape),
-      is_flat_(std::holds_alternative<Box>(shape) ||
-               std::holds_alternative<HalfSpace>(shape)) {
-  LIMBER_EXPECT(!std::holds_alternative<SkinShape>(shape));
+DepthField::DepthField(const BodyKind& body) : kind_(make_field(body)) {}
+
+bool DepthField::is_flat() const {
+  return std::holds_alternative<SolidField>(kind_);
 }
 
-double DepthField::find_t(const Vector3& x) const { return find_depth(x).t; }
+double DepthField::find_t(const Vector3& x) const {
+  return std::visit([&](const auto& shape) { return find_t_of(shape, x); },
+                    kind_);
+}
 
-Depth DepthField::find_depth(const Vector3& x) const {
-  return std::visit([&](const auto& shape) { return find(shape, x); }, shape_);
+Depth DepthField::find_depth(const Vector3& x, int face) const {
+  return std::visit([&](const auto& shape) { return find_of(shape, x, face); },
+                    kind_);
 }
 
 double DepthField::find_deepest(const StraightLine& line) const {
   return std::visit([&](const auto& shape) { return deepest(shape, line); },
-                    shape_);
+                    kind_);
 }
 
 Span DepthField::cut(const StraightLine& line) const {
   return std::visit([&](const auto& shape) { return part_within(shape, line); },
-                    shape_);
+                    kind_);
 }
 
 void DepthField::divide(const StraightLine& line, const Span& part,
                         LinePieces& out) const {
-  std::visit([&](const auto& shape) { split(shape, line, part, out); }, shape_);
+  std::visit([&](const auto& shape) { split(shape, line, part, out); }, kind_);
+}
+
+Span DepthField::find_extent(const Vector3& n) const {
+  return std::visit([&](const auto& shape) { return find_extent_of(shape, n); },
+                    kind_);
 }
 
 }  // namespace limber::contact

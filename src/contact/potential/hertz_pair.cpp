@@ -11,7 +11,7 @@
 namespace limber::contact {
 namespace {
 
-double find_curvature(const ShapeKind& shape) {
+double find_curvature(const BodyKind& shape) {
   const auto* ball = std::get_if<Sphere>(&shape);
   return ball == nullptr ? 0.0 : 1.0 / ball->radius;
 }
@@ -69,18 +69,19 @@ Facing face(const Pose& X_A, double curvature_A, const Pose& X_B,
 
 }  // namespace
 
-bool HertzPair::suits(const ShapeKind& A, const ShapeKind& B) {
-  const auto is_ball = [](const ShapeKind& shape) {
+bool HertzPair::suits(const BodyKind& A, const BodyKind& B) {
+  const auto is_ball = [](const BodyKind& shape) {
     return std::holds_alternative<Sphere>(shape);
   };
-  const auto is_plane = [](const ShapeKind& shape) {
-    return std::holds_alternative<HalfSpace>(shape);
+  const auto is_plane = [](const BodyKind& shape) {
+    const auto* solid = std::get_if<ConvexSolid>(&shape);
+    return solid != nullptr && !solid->is_bounded();
   };
   return (is_ball(A) && (is_ball(B) || is_plane(B))) ||
          (is_plane(A) && is_ball(B));
 }
 
-HertzPair::HertzPair(const ShapeKind& A, const ShapeKind& B, double modulus)
+HertzPair::HertzPair(const BodyKind& A, const BodyKind& B, double modulus)
     : curvature_A_(find_curvature(A)),
       curvature_B_(find_curvature(B)),
       radius_(1.0 / (curvature_A_ + curvature_B_)),

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "limber/common/pose.hpp"
+#include "limber/contact/potential/body_kind.hpp"
 #include "limber/contact/potential/patch.hpp"
-#include "limber/contact/shapes/shape.hpp"
 
 namespace limber::contact {
 
@@ -16,9 +16,9 @@ class HertzPair {
  public:
   /// @param modulus E* > 0 [Pa]
   /// @throws ContractError unless suits(A, B).
-  HertzPair(const ShapeKind& A, const ShapeKind& B, double modulus);
+  HertzPair(const BodyKind& A, const BodyKind& B, double modulus);
 
-  [[nodiscard]] static bool suits(const ShapeKind& A, const ShapeKind& B);
+  [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
   /// In the axes and from the origin of both poses.
   [[nodiscard]] Patch evaluate(const Pose& X_A, const Pose& X_B) const;

@@ -52,13 +52,18 @@ Matrix6 shift(const Vector3& d) {
 }
 
 // In the body's frame.
-Matrix3 find_moving_turns(const Shape& shape) {
-  if (std::holds_alternative<Sphere>(shape.kind)) return Matrix3::Zero();
-  const bool is_round = std::holds_alternative<Capsule>(shape.kind) ||
-                        std::holds_alternative<Cylinder>(shape.kind);
+Matrix3 find_moving_turns(const PlacedBody& body) {
+  if (std::holds_alternative<Sphere>(body.kind)) return Matrix3::Zero();
+  const bool is_round = std::holds_alternative<Capsule>(body.kind) ||
+                        std::holds_alternative<Cylinder>(body.kind);
   if (!is_round) return Matrix3::Identity();
-  const Vector3 axis = shape.X_BS.R.col(2);
+  const Vector3 axis = body.X_BS.R.col(2);
   return Matrix3::Identity() - axis * axis.transpose();
+}
+
+bool is_bounded(const BodyKind& body) {
+  const auto* solid = std::get_if<ConvexSolid>(&body);
+  return solid == nullptr || solid->is_bounded();
 }
 
 Vector3 find_middle(const Polytope& polytope) {
@@ -69,16 +74,17 @@ Vector3 find_middle(const Polytope& polytope) {
 
 }  // namespace
 
-bool PairPotential::suits(const ShapeKind& A, const ShapeKind& B) {
-  const auto is_bounded = [](const ShapeKind& shape) {
-    return !std::holds_alternative<HalfSpace>(shape);
-  };
-  return (is_solid(A) && is_solid(B) && (is_bounded(A) || is_bounded(B))) ||
-         RoundPair::suits(A, B) || HertzPair::suits(A, B);
+bool PairPotential::suits(const BodyKind& A, const BodyKind& B) {
+  if (HertzPair::suits(A, B)) return true;
+  const auto* of_A = std::get_if<ConvexSolid>(&A);
+  const auto* of_B = std::get_if<ConvexSolid>(&B);
+  if (of_A == nullptr || of_B == nullptr) return RoundPair::suits(A, B);
+  return of_A->is_bounded() || of_B->is_bounded();
 }
 
-PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
-    : is_B_bounded_(!std::holds_alternative<HalfSpace>(B.kind)),
+PairPotential::PairPotential(const PlacedBody& A, const PlacedBody& B,
+                             double modulus)
+    : is_B_bounded_(is_bounded(B.kind)),
       X_AS_(A.X_BS),
       X_BS_(B.X_BS),
       modulus_(modulus) {
@@ -94,21 +100,13 @@ PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
     round_.emplace(A.kind, B.kind);
     return;
   }
-  A_.emplace(A.kind);
-  B_.emplace(B.kind);
+  A_ = std::get<ConvexSolid>(A.kind);
+  B_ = std::get<ConvexSolid>(B.kind);
 }
 
-PairPotential::PairPotential(const PlacedSolid& A, const PlacedSolid& B,
-                             double modulus)
-    : A_(A.solid),
-      B_(B.solid),
-      is_B_bounded_(B.solid.is_bounded()),
-      X_AS_(A.X_BS),
-      X_BS_(B.X_BS),
-      modulus_(modulus) {
-  LIMBER_EXPECT(A_->is_bounded() || B_->is_bounded());
-  LIMBER_EXPECT(modulus > 0.0);
-}
+PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
+    : PairPotential(PlacedBody{make_body(A.kind), A.X_BS},
+                    PlacedBody{make_body(B.kind), B.X_BS}, modulus) {}
 
 std::optional<PairMoments> PairPotential::find_flat_moments(
     Pose X_A, Pose X_B, bool has_derivatives) const {

@@ -24,8 +24,8 @@ class PairPotential {
  public:
   /// @param modulus E* > 0 [Pa]
   /// @throws ContractError unless suits(A.kind, B.kind).
+  PairPotential(const PlacedBody& A, const PlacedBody& B, double modulus);
   PairPotential(const Shape& A, const Shape& B, double modulus);
-  PairPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus);
 
   /// @param has_derivatives else hessian_W of polyhedra is zero
   /// @param shift_W of B from its place [m]
@@ -34,9 +34,11 @@ class PairPotential {
                                const Vector3& shift_W = Vector3::Zero()) const;
 
   [[nodiscard]] double modulus() const { return modulus_; }
+  /// Whether as HertzPair.
+  [[nodiscard]] bool is_point() const { return point_.has_value(); }
 
-  /// Two boxes, a box and a half space, or as RoundPair or HertzPair.
-  [[nodiscard]] static bool suits(const ShapeKind& A, const ShapeKind& B);
+  /// Two solids, one of them bounded, or as RoundPair or HertzPair.
+  [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
  private:
   // From the origin of both shapes' poses.

@@ -5,47 +5,51 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/potential/convex_solid.hpp"
 
 namespace limber::contact {
 namespace {
 
-// Without edges or flats.
-bool is_smooth(const ShapeKind& shape) {
-  return std::holds_alternative<Sphere>(shape) ||
-         std::holds_alternative<Capsule>(shape);
+// Without edges or flats: of no straight lines.
+template <typename Kind>
+bool is_smooth(const Kind& body) {
+  return std::holds_alternative<Sphere>(body) ||
+         std::holds_alternative<Capsule>(body);
 }
 
-// Of straight lines.
-bool is_ruled(const ShapeKind& shape) {
-  return is_solid(shape) || std::holds_alternative<Cylinder>(shape);
+bool is_polyhedral(const BodyKind& body) {
+  return std::holds_alternative<ConvexSolid>(body);
 }
 
-bool is_ball_on_plane(const ShapeKind& A, const ShapeKind& B) {
-  return std::holds_alternative<Sphere>(A) &&
-         std::holds_alternative<HalfSpace>(B);
+bool is_small(const BodyKind& body) {
+  const auto* solid = std::get_if<ConvexSolid>(&body);
+  return solid == nullptr || solid->faces().size() <= SolidField::kMostFaces;
+}
+
+bool is_ball_on_plane(const BodyKind& A, const BodyKind& B) {
+  const auto* solid = std::get_if<ConvexSolid>(&B);
+  return std::holds_alternative<Sphere>(A) && solid != nullptr &&
+         !solid->is_bounded();
 }
 
 }  // namespace
 
-bool RoundPair::suits(const ShapeKind& A, const ShapeKind& B) {
-  const auto is_known = [](const ShapeKind& shape) {
-    return is_smooth(shape) || is_ruled(shape);
-  };
-  return is_known(A) && is_known(B) && (is_ruled(A) || is_ruled(B)) &&
-         !(is_solid(A) && is_solid(B)) && !is_ball_on_plane(A, B) &&
-         !is_ball_on_plane(B, A);
+bool RoundPair::suits(const BodyKind& A, const BodyKind& B) {
+  return !(is_smooth(A) && is_smooth(B)) &&
+         !(is_polyhedral(A) && is_polyhedral(B)) && !is_ball_on_plane(A, B) &&
+         !is_ball_on_plane(B, A) && is_small(A) && is_small(B);
 }
 
-RoundPair::RoundPair(const ShapeKind& A, const ShapeKind& B) : A_(A), B_(B) {
+RoundPair::RoundPair(const BodyKind& A, const BodyKind& B) : A_(A), B_(B) {
   LIMBER_EXPECT(suits(A, B));
 }
 
 Factor RoundPair::find_factor(const Pose& X_A, const Pose& X_B) const {
   // (8 / 15) sqrt(5 / 2): of a ball on a flat, M = 2 pi R d^5 / 5
   const double round = 8.0 / 15.0 * std::sqrt(2.5);
-  if (is_smooth(A_.shape()) || is_smooth(B_.shape())) return {.value = round};
-  if (is_solid(A_.shape()) || is_solid(B_.shape())) return {};
+  if (is_smooth(A_.field().kind()) || is_smooth(B_.field().kind())) {
+    return {.value = round};
+  }
+  if (A_.field().is_flat() || B_.field().is_flat()) return {};
   constexpr double kAligned = 0.01;
   const Vector3 a = X_A.R.col(2);
   const Vector3 b = X_B.R.col(2);
@@ -64,12 +68,12 @@ std::optional<PairMoments> RoundPair::find_moments(const Pose& X_A,
   PairMoments out;
   std::optional<SurfaceContact> soft_A;
   std::optional<SurfaceContact> soft_B;
-  if (is_ruled(B_.shape())) {
+  if (A_.is_soft() && !is_smooth(B_.field().kind())) {
     soft_A.emplace(A_, B_, X_A.inverse() * X_B);
     if (!soft_A->touches()) return {};
     out.o = X_A * soft_A->deepest_place();
   }
-  if (is_ruled(A_.shape())) {
+  if (B_.is_soft() && !is_smooth(A_.field().kind())) {
     soft_B.emplace(B_, A_, X_B.inverse() * X_A);
     if (!soft_B->touches()) return {};
     if (!soft_A) out.o = X_B * soft_B->deepest_place();

@@ -14,9 +14,10 @@ struct PairMoments {
   Vector3 o = Vector3::Zero();
 };
 
-/// Two bodies of which one is round: a cylinder with a half space, a box or a
-/// cylinder, of which each is the soft one in turn; or a capsule or ball,
-/// always the soft one, whose moments count for both.
+/// Two bodies of which one is round: a cylinder with a solid or a cylinder, of
+/// which each is the soft one in turn; or a capsule or ball, always the soft
+/// one, whose moments count for both, as those of a cylinder do where some
+/// faces of the solid do not press.
 ///
 /// Equation   factor of W: find_shape_factor times c; c = 1, with a ball or
 ///            capsule k = 0.8433, exact for a ball on a flat, of two cylinders
@@ -26,11 +27,12 @@ struct PairMoments {
 class RoundPair {
  public:
   /// @throws ContractError unless suits(A, B).
-  RoundPair(const ShapeKind& A, const ShapeKind& B);
+  RoundPair(const BodyKind& A, const BodyKind& B);
 
   /// Smooth bodies touch at points, of which other laws are exact: they do not
-  /// suit, nor do two bodies with flat faces alone.
-  [[nodiscard]] static bool suits(const ShapeKind& A, const ShapeKind& B);
+  /// suit, nor do two bodies with flat faces alone, nor solids of more than
+  /// SolidField::kMostFaces.
+  [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
   /// Nothing if they are apart.
   [[nodiscard]] std::optional<PairMoments> find_moments(
@@ -40,8 +42,8 @@ class RoundPair {
   // c of the pair of kinds
   [[nodiscard]] Factor find_factor(const Pose& X_A, const Pose& X_B) const;
 
-  DepthField A_;
-  DepthField B_;
+  RuledBody A_;
+  RuledBody B_;
 };
 
 }  // namespace limber::contact

@@ -3,206 +3,141 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <variant>
 
-#include "limber/common/errors.hpp"
+#include "limber/contact/potential/line_rule.hpp"
 
 namespace limber::contact {
 namespace {
 
 using Kind = RuledSurface::Kind;
-
-// Directions more upright than this have none in the plane [-].
-constexpr double kUpright = 1e-6;
-// More than a soft body's extent [-].
-constexpr double kMargin = 1.01;
+using Vector2 = Eigen::Vector2d;
 
 Vector3 find_radial(const RuledSurface& surface, double u) {
   return std::cos(u) * surface.e1 + std::sin(u) * surface.e2;
 }
 
-// In the soft body's frame.
-Vector3 choose_way(const ShapeKind& soft, const Vector3& n) {
-  if (std::holds_alternative<HalfSpace>(soft)) {
-    return n.cross(Vector3::UnitZ());
+// Of corners along the axes of the outline, in those of the rows.
+Vector2 turn_corner(const Vector2& x, const Vector2& row) {
+  return {x[0] * row[1] - x[1] * row[0], x.dot(row)};
+}
+
+Span find_range(FlatOutline outline, const Vector2& row) {
+  Span range{std::numeric_limits<double>::max(),
+             std::numeric_limits<double>::lowest()};
+  for (const Vector2& x : outline) {
+    const double u = turn_corner(x, row)[0];
+    range = {std::min(range.first, u), std::max(range.last, u)};
   }
-  if (std::holds_alternative<Box>(soft)) {
-    Eigen::Index axis = 0;
-    n.cwiseAbs().minCoeff(&axis);
-    return Vector3::Unit(axis);
-  }
-  if (std::holds_alternative<Sphere>(soft)) return Vector3::Zero();
-  return Vector3::UnitZ();
+  return range;
 }
 
-Vector3 find_row_way(const ShapeKind& soft, const Vector3& n) {
-  const Vector3 way = choose_way(soft, n);
-  const Vector3 in_plane = way - way.dot(n) * n;
-  if (in_plane.norm() < kUpright) return n.unitOrthogonal();
-  return in_plane.normalized();
-}
-
-double find_radius(const ShapeKind& shape) {
-  if (const auto* ball = std::get_if<Sphere>(&shape)) return ball->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->half_size.norm();
-  if (const auto* rod = std::get_if<Capsule>(&shape)) {
-    return rod->half_length + rod->radius;
-  }
-  const auto* cylinder = std::get_if<Cylinder>(&shape);
-  LIMBER_EXPECT(cylinder != nullptr);
-  return std::hypot(cylinder->half_length, cylinder->radius);
-}
-
-void list(const HalfSpace& /*shape*/, const Pose& X, const ShapeKind& soft,
-          RuledSurfaces& out) {
-  RuledSurface& plane = out.add();
-  plane.e3 = X.R.col(2);
-  plane.e2 = find_row_way(soft, plane.e3);
-  plane.e1 = plane.e2.cross(plane.e3);
-  plane.centre = X.p.dot(plane.e3) * plane.e3;
-  plane.half_u = kMargin * find_radius(soft);
-  plane.half_v = plane.half_u;
-}
-
-void list(const Box& shape, const Pose& X, const ShapeKind& soft,
-          RuledSurfaces& out) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      RuledSurface& face = out.add();
-      face.e3 = sign * X.R.col(axis);
-      face.centre = X.p + shape.half_size[axis] * face.e3;
-      const Vector3 way = find_row_way(soft, face.e3);
-      int u = (axis + 1) % 3;
-      int v = (axis + 2) % 3;
-      if (std::abs(way.dot(X.R.col(u))) > std::abs(way.dot(X.R.col(v)))) {
-        std::swap(u, v);
-      }
-      face.e1 = X.R.col(u);
-      face.e2 = X.R.col(v);
-      face.half_u = shape.half_size[u];
-      face.half_v = shape.half_size[v];
-    }
+// @param use (corner, next corner)
+template <typename Use>
+void visit_edges(const RuledSurface& surface, const Use& use) {
+  const std::size_t count = surface.outline.size();
+  Vector2 from = surface.find_corner(count - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2 to = surface.find_corner(i);
+    use(from, to);
+    from = to;
   }
 }
 
-void list(const Cylinder& shape, const Pose& X, const ShapeKind& soft,
-          RuledSurfaces& out) {
-  RuledSurface& side = out.add();
-  side.kind = Kind::kSide;
-  side.centre = X.p;
-  side.e1 = X.R.col(0);
-  side.e2 = X.R.col(1);
-  side.e3 = X.R.col(2);
-  side.radius = shape.radius;
-  side.half_u = std::numbers::pi;
-  side.half_v = shape.half_length;
-  for (const double sign : {-1.0, 1.0}) {
-    RuledSurface& disc = out.add();
-    disc.kind = Kind::kDisc;
-    disc.e3 = sign * X.R.col(2);
-    disc.centre = X.p + shape.half_length * disc.e3;
-    disc.e2 = find_row_way(soft, disc.e3);
-    disc.e1 = disc.e2.cross(disc.e3);
-    disc.radius = shape.radius;
-    disc.half_u = 0.5 * std::numbers::pi;
-  }
+StraightLine find_row(const RuledSurface& polygon, double u) {
+  const double at = std::clamp(u, polygon.u.first, polygon.u.last);
+  Span span{std::numeric_limits<double>::max(),
+            std::numeric_limits<double>::lowest()};
+  visit_edges(polygon, [&](const Vector2& a, const Vector2& b) {
+    if ((a[0] - at) * (b[0] - at) > 0.0 || a[0] == b[0]) return;
+    const double v = a[1] + (b[1] - a[1]) * ((at - a[0]) / (b[0] - a[0]));
+    span = {std::min(span.first, v), std::max(span.last, v)};
+  });
+  return {polygon.centre + at * polygon.e1, polygon.e2, span};
 }
 
-template <typename Other>
-void list(const Other& /*shape*/, const Pose& /*X*/, const ShapeKind& /*soft*/,
-          RuledSurfaces& /*out*/) {
-  LIMBER_EXPECT(!"a surface of straight lines");
+// A way for rows, in the axes of the outline: of the longest edge if `way` is
+// zero, and of an edge that is nearly along it, beside which rows would be cut
+// all at once.
+Vector2 choose_row(FlatOutline outline, const Vector2& way) {
+  constexpr double kAlong = 0.05;  // [rad]
+  constexpr double kLonger = 1.0 + 1e-9;
+  Vector2 longest = Vector2::Zero();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2 edge = outline[(i + 1) % outline.size()] - outline[i];
+    const double length = edge.norm();
+    const double across = way[0] * edge[1] - way[1] * edge[0];
+    if (std::abs(across) > kAlong * length) continue;
+    if (length > kLonger * longest.norm()) longest = edge;
+  }
+  return longest.isZero(0.0) ? way : Vector2(longest.normalized());
 }
 
-void list_rims(const Cylinder& shape, RuledSurfaces& out) {
-  for (const double sign : {-1.0, 1.0}) {
-    RuledSurface& rim = out.add();
-    rim.kind = Kind::kRim;
-    rim.e3 = sign * Vector3::UnitZ();
-    rim.centre = shape.half_length * rim.e3;
-    rim.radius = shape.radius;
-    rim.half_u = std::numbers::pi;
-    rim.half_v = std::min(shape.radius, shape.half_length);
+// int t^4 dv of t = depth + slope v
+double integrate_power(const RuledSurface& sheet, const Span& span) {
+  const auto& rule = line_rule<3>();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rule.places.size(); ++i) {
+    const double v = span.first + rule.places[i] * span.length();
+    const double square = std::pow(sheet.depth + sheet.slope * v, 2);
+    sum += rule.weights[i] * square * square;
   }
-}
-
-void list_ridges(const Box& shape, RuledSurfaces& out) {
-  const Vector3& h = shape.half_size;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int i = (axis + 1) % 3;
-    const int j = (axis + 2) % 3;
-    for (const double a : {-1.0, 1.0}) {
-      for (const double b : {-1.0, 1.0}) {
-        RuledSurface& ridge = out.add();
-        ridge.kind = Kind::kRidge;
-        ridge.e1 = Vector3::Unit(axis);
-        ridge.e2 = -a * Vector3::Unit(i) - b * Vector3::Unit(j);
-        ridge.centre =
-            a * h[i] * Vector3::Unit(i) + b * h[j] * Vector3::Unit(j);
-        ridge.half_u = h[axis];
-        ridge.half_v = std::min(h[i], h[j]);
-      }
-    }
-  }
+  return sum * span.length();
 }
 
 }  // namespace
 
-StraightLine RuledSurface::find_line(double u) const {
+Vector2 RuledSurface::find_corner(std::size_t i) const {
+  return turn_corner(outline[i], row);
+}
+
+StraightLine RuledSurface::find_line(double at) const {
   switch (kind) {
-    case Kind::kFlat:
-      return {centre + u * e1, e2, {-half_v, half_v}};
+    case Kind::kPlane:
+      return {centre + at * e1, e2, {-half_v, half_v}};
+    case Kind::kPolygon:
+      return find_row(*this, at);
     case Kind::kDisc: {
-      const double half = radius * std::cos(u);
-      return {centre + radius * std::sin(u) * e1, e2, {-half, half}};
+      const double half = radius * std::cos(at);
+      return {centre + radius * std::sin(at) * e1, e2, {-half, half}};
     }
     case Kind::kSide:
-      return {centre + radius * find_radial(*this, u), e3, {-half_v, half_v}};
-    case Kind::kRidge:
-      return {centre + u * e1,
-              e2,
-              {0.0, std::min(half_v, std::max(half_u - std::abs(u), 0.0))}};
+      return {centre + radius * find_radial(*this, at), e3, {-half_v, half_v}};
     case Kind::kRim:
       break;
   }
-  const Vector3 radial = find_radial(*this, u);
+  const Vector3 radial = find_radial(*this, at);
   return {centre + radius * radial, -radial - e3, {0.0, half_v}};
 }
 
-Vector3 RuledSurface::find_area(double u) const {
-  if (kind == Kind::kFlat) return e3;
-  if (kind == Kind::kDisc) return radius * std::cos(u) * e3;
-  return radius * find_radial(*this, u);
+Vector3 RuledSurface::find_area(double at) const {
+  if (is_flat()) return e3;
+  if (kind == Kind::kDisc) return radius * std::cos(at) * e3;
+  return radius * find_radial(*this, at);
 }
 
-// Ridge: both t^4 / sqrt(2), dS = sqrt(2) du dv. Rim: side
-// t^4 (R - 0.8 t) / (R - t), end t^4, dS = sqrt(2) (R - t) du dv.
+// Rim: side t^4 (R - 0.8 t) / (R - t), end t^4, dS = sqrt(2) (R - t) du dv, by
+// each 1 / sqrt(2).
 double RuledSurface::find_flux(const Span& span) const {
+  if (kind != Kind::kRim) return density * integrate_power(*this, span);
   const auto integral = [&](double v) {
-    const double fifth = std::pow(v, 5);
-    return kind == Kind::kRidge ? 0.4 * fifth
-                                : (0.4 * radius - 0.3 * v) * fifth;
+    return (0.4 * radius - 0.3 * v) * std::pow(v, 5);
   };
   return integral(span.last) - integral(span.first);
 }
 
 double RuledSurface::find_speed() const {
-  if (kind == Kind::kFlat) return 1.0;
-  return kind == Kind::kRidge ? 2.0 : radius;
-}
-
-double RuledSurface::find_reach() const {
-  switch (kind) {
-    case Kind::kFlat:
-      return std::hypot(half_u, half_v);
-    case Kind::kDisc:
-      return radius;
-    case Kind::kRidge:
-      return std::hypot(half_u, std::numbers::sqrt2 * half_v);
-    default:
-      return std::hypot(radius, half_v);
-  }
+  if (kind == Kind::kPlane) return 1.0;
+  if (kind != Kind::kPolygon) return radius;
+  constexpr double kSteep = 1e-9;  // of an edge along the rows [-]
+  double steepest = 0.0;
+  visit_edges(*this, [&](const Vector2& a, const Vector2& b) {
+    const Vector2 edge = (b - a).cwiseAbs();
+    if (edge[0] > kSteep * edge[1])
+      steepest = std::max(steepest, edge[1] / edge[0]);
+  });
+  return std::hypot(1.0, steepest);
 }
 
 RuledSurface RuledSurface::place(const Pose& X) const {
@@ -214,16 +149,40 @@ RuledSurface RuledSurface::place(const Pose& X) const {
   return placed;
 }
 
-void list_surfaces(const ShapeKind& hard, const Pose& X, const ShapeKind& soft,
-                   RuledSurfaces& out) {
-  std::visit([&](const auto& shape) { list(shape, X, soft, out); }, hard);
+void RuledSurface::turn_rows(const Vector3& way) {
+  if (is_closed()) return;
+  if (kind != Kind::kPolygon) {
+    e2 = way.isZero(0.0) ? Vector3(e3.unitOrthogonal()) : way;
+    e1 = e2.cross(e3);
+    return;
+  }
+  // Of the outline's axes, by the present row.
+  const Vector3 x = row[1] * e1 + row[0] * e2;
+  const Vector3 y = -row[0] * e1 + row[1] * e2;
+  row = choose_row(outline, {way.dot(x), way.dot(y)});
+  e2 = row[0] * x + row[1] * y;
+  e1 = e2.cross(e3);
+  u = find_range(outline, row);
 }
 
-void list_sheets(const ShapeKind& soft, RuledSurfaces& out) {
-  if (const auto* box = std::get_if<Box>(&soft)) list_ridges(*box, out);
-  if (const auto* cylinder = std::get_if<Cylinder>(&soft)) {
-    list_rims(*cylinder, out);
+RuledSurface make_polygon(std::span<const Vector3> corners,
+                          const Vector3& normal, const Vector3& way,
+                          std::vector<Vector2>& outline) {
+  RuledSurface polygon;
+  polygon.kind = Kind::kPolygon;
+  polygon.e3 = normal;
+  polygon.e2 = way;
+  polygon.e1 = way.cross(normal);
+  for (const Vector3& x : corners) polygon.centre += x;
+  polygon.centre /= static_cast<double>(corners.size());
+  for (const Vector3& x : corners) {
+    const Vector3 r = x - polygon.centre;
+    outline.emplace_back(r.dot(polygon.e1), r.dot(polygon.e2));
+    polygon.reach = std::max(polygon.reach, r.norm());
   }
+  polygon.outline = outline;
+  polygon.u = find_range(polygon.outline, polygon.row);
+  return polygon;
 }
 
 }  // namespace limber::contact

@@ -1,33 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include "limber/common/pose.hpp"
-#include "limber/contact/potential/depth_field.hpp"
+#include "limber/contact/potential/straight_line.hpp"
 
 namespace limber::contact {
 
-/// A part of a surface, or a sheet within a body whose points are equally near
-/// to two of its faces, as straight lines v along which a coordinate u is
-/// constant.
+using FlatOutline = std::span<const Eigen::Vector2d>;
+
+/// A part of a surface, or a sheet within a body on which it is integrated as
+/// well, as straight lines v along which a coordinate u is constant. A copy
+/// shares its outline.
 struct RuledSurface {
   enum class Kind {
-    kFlat,   ///< rectangle: u along e1, v along e2
-    kDisc,   ///< u an angle: at radius sin u along e1, v along e2
-    kSide,   ///< of a cylinder: u the angle from e1 to e2, v along e3
-    kRidge,  ///< sheet of a box's edge along e1; v the depth, inward along e2
-    kRim     ///< sheet of a cylinder's rim, e3 outward; v the depth
+    kPlane,    ///< square: u along e1, v along e2
+    kPolygon,  ///< convex: u along e1, v along e2
+    kDisc,     ///< u an angle: at radius sin u along e1, v along e2
+    kSide,     ///< of a cylinder: u the angle from e1 to e2, v along e3
+    kRim       ///< sheet of a cylinder's rim, e3 outward; v the depth
   };
-  Kind kind = Kind::kFlat;
+  Kind kind = Kind::kPlane;
   Vector3 centre = Vector3::Zero();
   Vector3 e1 = Vector3::UnitX();
   Vector3 e2 = Vector3::UnitY();
   Vector3 e3 = Vector3::UnitZ();  ///< outward normal of a flat or disc
   double radius = 0.0;            ///< of a disc, side or rim [m]
-  double half_u = 0.0;            ///< |u| <= half_u [m or rad]
-  double half_v = 0.0;            ///< |v|, or the largest v of a sheet [m]
+  Span u;                         ///< of its lines [m or rad]
+  double half_v = 0.0;            ///< |v|, or the largest v of a rim [m]
+  double reach = 0.0;             ///< of a ball about the centre [m]
 
-  [[nodiscard]] bool is_sheet() const {
-    return kind == Kind::kRidge || kind == Kind::kRim;
+  /// Corners of a polygon, counterclockwise about e3, from the centre [m].
+  FlatOutline outline;
+  /// e2 in the axes of the outline.
+  Eigen::Vector2d row = Eigen::Vector2d::UnitY();
+
+  /// Of a flat sheet: that of t^4 in the flux, and t = depth + slope v.
+  double density = 0.0;
+  double depth = 0.0;
+  double slope = 0.0;
+
+  [[nodiscard]] bool is_flat() const {
+    return kind == Kind::kPlane || kind == Kind::kPolygon;
   }
   /// Whether u is an angle that turns all around.
   [[nodiscard]] bool is_closed() const {
@@ -36,27 +53,29 @@ struct RuledSurface {
   [[nodiscard]] StraightLine find_line(double u) const;
   /// Outward normal times the area by du dv; of no sheet.
   [[nodiscard]] Vector3 find_area(double u) const;
-  /// Of a sheet, over the depths of a span of a line: flux of phi grad t out of
-  /// both cells, by du.
+  /// Of a sheet, over a span of a line: flux of phi grad t out of the cells
+  /// beside it, by du.
   [[nodiscard]] double find_flux(const Span& span) const;
   /// At least that of a point of the line, by du.
   [[nodiscard]] double find_speed() const;
-  /// Of a ball about the centre [m].
-  [[nodiscard]] double find_reach() const;
+  /// (u, v) of a corner of the outline.
+  [[nodiscard]] Eigen::Vector2d find_corner(std::size_t i) const;
+  [[nodiscard]] Vector3 at(const Eigen::Vector2d& uv) const {
+    return centre + uv[0] * e1 + uv[1] * e2;
+  }
+
   [[nodiscard]] RuledSurface place(const Pose& X) const;
+  /// Rows along a way, or any if it is zero, of a polygon along an edge that is
+  /// nearly along it; no change of a side or rim. @param way in the plane
+  void turn_rows(const Vector3& way);
 };
 
-using RuledSurfaces = StackArray<RuledSurface, 24>;
-
-/// The surface of a half space, box or cylinder, rows of flats across the way
-/// in which the depth below `soft` changes most. A half space's is as large as
-/// `soft`, which must be bounded then.
-/// @param X the pose of `hard` in the frame of `soft`
-/// @throws ContractError for other kinds.
-void list_surfaces(const ShapeKind& hard, const Pose& X, const ShapeKind& soft,
-                   RuledSurfaces& out);
-
-/// The sheets of a box or cylinder in its own frame; none of other kinds.
-void list_sheets(const ShapeKind& soft, RuledSurfaces& out);
+/// A polygon by its corners, counterclockwise about `normal`; `outline` gets
+/// what it shares with its copies and must outlive them.
+/// @param way of its rows, normal to `normal`, unit
+[[nodiscard]] RuledSurface make_polygon(std::span<const Vector3> corners,
+                                        const Vector3& normal,
+                                        const Vector3& way,
+                                        std::vector<Eigen::Vector2d>& outline);
 
 }  // namespace limber::contact

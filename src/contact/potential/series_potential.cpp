@@ -15,7 +15,7 @@ using Normals = Eigen::Matrix<double, 3, 2>;
 
 }  // namespace
 
-SeriesPotential::SeriesPotential(const PlacedSolid& A, const PlacedSolid& B,
+SeriesPotential::SeriesPotential(const PlacedBody& A, const PlacedBody& B,
                                  double modulus, double R_A, double R_B)
     : potential_(A, B, modulus),
       normal_A_(A.X_BS.R.col(2)),
@@ -23,9 +23,6 @@ SeriesPotential::SeriesPotential(const PlacedSolid& A, const PlacedSolid& B,
       R_(R_A, R_B) {
   LIMBER_EXPECT(R_A >= 0.0 && R_B >= 0.0);
 }
-
-SeriesPotential::SeriesPotential(const Shape& A, const Shape& B, double modulus)
-    : potential_(A, B, modulus) {}
 
 // Newton's method from d = 0, monotone where W's slope is convex along d, with
 // steps that do not raise the energy.

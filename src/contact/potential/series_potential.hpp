@@ -5,7 +5,7 @@
 
 namespace limber::contact {
 
-/// Two solids in series with flexible layers under a flat face of each, along
+/// Two bodies in series with flexible layers under a flat face of each, along
 /// its normal.
 ///
 /// Equation   W_s(x) = min over d of W(x + N d) + d' R^-1 d / 2, N = (n_A,
@@ -14,18 +14,17 @@ namespace limber::contact {
 /// Limits     neglects the turn of N with the bodies
 class SeriesPotential {
  public:
-  /// @param R_A, R_B of A along its solid's z axis, and of B >= 0 [m/N]
-  SeriesPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus,
+  /// @param R_A, R_B of A along its own z axis, and of B >= 0 [m/N]
+  /// @throws ContractError as PairPotential.
+  SeriesPotential(const PlacedBody& A, const PlacedBody& B, double modulus,
                   double R_A, double R_B);
-
-  /// Without layers, as PairPotential. @throws ContractError likewise.
-  SeriesPotential(const Shape& A, const Shape& B, double modulus);
 
   /// As PairPotential's. @throws NumericalError if Newton's method fails.
   [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
                                bool has_derivatives) const;
 
   [[nodiscard]] double modulus() const { return potential_.modulus(); }
+  [[nodiscard]] bool is_point() const { return potential_.is_point(); }
 
  private:
   // d' R^-1 d / 2 [J].

@@ -159,9 +159,7 @@ class PartQuadrature {
   [[nodiscard]] bool is_blunt(const Span& u) const {
     constexpr double kInside = 1e-3;
     constexpr double kDeep = 0.03;
-    if (surface_.kind != RuledSurface::Kind::kFlat || soft_.is_flat()) {
-      return false;
-    }
+    if (!surface_.is_flat() || soft_.is_flat()) return false;
     const double least = kDeep * find_depth(u.middle());
     return find_depth(u.first + kInside * u.length()) > least ||
            find_depth(u.last - kInside * u.length()) > least;
@@ -196,9 +194,9 @@ class PartQuadrature {
       const Span span{first, piece.last};
       // Polynomials of degree 5 below a flat.
       if (soft_.is_flat()) {
-        add_points<3>(line, span, of_line);
+        add_points<3>(line, span, piece.face, of_line);
       } else {
-        add_points<6>(line, span, of_line);
+        add_points<6>(line, span, piece.face, of_line);
       }
       first = piece.last;
     }
@@ -206,12 +204,12 @@ class PartQuadrature {
   }
 
   template <std::size_t count, typename LineOf>
-  void add_points(const StraightLine& line, const Span& span,
+  void add_points(const StraightLine& line, const Span& span, int face,
                   LineOf& sums) const {
     const auto& rule = line_rule<count>();
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3 x = line.at(span.first + rule.places[i] * span.length());
-      const Depth depth = soft_.find_depth(x);
+      const Depth depth = soft_.find_depth(x, face);
       if (!(depth.t > 0.0)) continue;
       sums.add(depth, x - o_, rule.weights[i] * span.length());
     }
@@ -306,25 +304,24 @@ Factor find_factor_of_form(const Form& form, const Slopes& slopes,
 
 }  // namespace
 
-SurfaceContact::SurfaceContact(const DepthField& soft, const DepthField& hard,
+SurfaceContact::SurfaceContact(const RuledBody& soft, const RuledBody& hard,
                                const Pose& X)
     : soft_(soft), hard_(hard), X_hs_(X.inverse()) {
-  RuledSurfaces surfaces;
-  list_surfaces(hard.shape(), X, soft.shape(), surfaces);
-  for (const RuledSurface& surface : surfaces.all()) {
-    const auto part = find_touched_part(surface, soft);
-    if (!part) continue;
+  hard.visit_surfaces(X, soft, [&](const RuledSurface& surface) {
+    const auto part = find_touched_part(surface, soft.field());
+    if (!part) return;
     Part& added = parts_.add();
     added.surface = surface;
     added.u = part->u;
     if (part->depth > deepest_.depth) deepest_ = *part;
-  }
+  });
 }
 
 template <typename Sums>
 void SurfaceContact::integrate_parts(const Vector3& o, Sums& sums) const {
   for (const Part& part : parts_.all()) {
-    PartQuadrature<Sums>(part.surface, soft_, o).integrate(part.u, sums);
+    PartQuadrature<Sums>(part.surface, soft_.field(), o)
+        .integrate(part.u, sums);
   }
 }
 
@@ -337,10 +334,10 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
   integrate_parts(o, sums);
   DepthMoments out;
   double of_sheets = 0.0;
-  RuledSurfaces sheets;
-  list_sheets(soft_.shape(), sheets);
-  for (const RuledSurface& sheet : sheets.all()) {
-    of_sheets += find_sheet_flux(sheet.place(X_hs_), hard_);
+  for (const RuledSurface& sheet : soft_.sheets()) {
+    const RuledSurface placed = sheet.place(X_hs_);
+    if (!hard_.is_reached(placed)) continue;
+    of_sheets += find_sheet_flux(placed, hard_.field());
   }
   out.M = sums.flux + of_sheets;
   const Vector6 wrench = sums.find_wrench();

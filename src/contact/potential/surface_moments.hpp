@@ -2,6 +2,7 @@
 #pragma once
 
 #include "limber/contact/potential/depth_moments.hpp"
+#include "limber/contact/potential/ruled_body.hpp"
 #include "limber/contact/potential/touched_part.hpp"
 
 namespace limber::contact {
@@ -17,18 +18,18 @@ namespace limber::contact {
 ///            where the nearest face changes; the pressure 4 t^3 n dS along the
 ///            resultant
 /// Limits     one place of contact; quadrature of 12 lines in a part of which
-///            the lines' ends and faces are the same: about 1e-7 of M; sheets
-///            in the middle of a body, where two opposite faces are equally
-///            near, are left out; the factor's derivatives leave out the turn
-///            of the resultant and of g, the second one is rough next to edges
+///            the lines' ends and faces are the same: about 1e-7 of M; of a
+///            cylinder the sheet where both ends are equally near is left out;
+///            the factor's derivatives leave out the turn of the resultant and
+///            of g, the second one is rough next to edges
 class SurfaceContact {
  public:
   /// @param X the pose of `hard` in the frame of `soft`
-  /// @param hard a half space, box or cylinder; one of both bounded
-  SurfaceContact(const DepthField& soft, const DepthField& hard, const Pose& X);
+  /// @param soft of a solid all faces press
+  /// @param hard a solid or cylinder; one of both bounded
+  SurfaceContact(const RuledBody& soft, const RuledBody& hard, const Pose& X);
 
   [[nodiscard]] bool touches() const { return !parts_.all().empty(); }
-  [[nodiscard]] double depth() const { return deepest_.depth; }
   [[nodiscard]] const Vector3& deepest_place() const { return deepest_.place; }
 
   /// About o, in the axes of `soft`; the factor is find_shape_factor of the
@@ -47,10 +48,10 @@ class SurfaceContact {
   template <typename Sums>
   void integrate_parts(const Vector3& o, Sums& sums) const;
 
-  const DepthField& soft_;
-  const DepthField& hard_;
+  const RuledBody& soft_;
+  const RuledBody& hard_;
   Pose X_hs_;  // of soft in the frame of hard
-  StackArray<Part, 24> parts_;
+  StackArray<Part, SolidField::kMostFaces> parts_;
   TouchedPart deepest_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace limber::contact {
 namespace {
@@ -40,7 +41,7 @@ class Search {
 
   // The sector of a closed surface that holds its deepest line.
   [[nodiscard]] Span find_sector() const {
-    const double width = 2.0 * surface_.half_u / kSectors;
+    const double width = surface_.u.length() / kSectors;
     Peak best{0.0, find_depth(0.0)};
     for (int i = 1; i < kSectors; ++i) {
       const double depth = find_depth(i * width);
@@ -104,69 +105,62 @@ class Search {
 };
 
 // Which ends and faces the part of a line within the body has; 0: none.
-int describe_line(const RuledSurface& surface, const DepthField& body,
-                  double u) {
+std::uint64_t describe_line(const RuledSurface& surface, const DepthField& body,
+                            double u) {
   const StraightLine line = surface.find_line(u);
   const Span part = body.cut(line);
   if (part.is_empty()) return 0;
-  int code = 1;
+  std::uint64_t code = 1;
   if (part.first == line.span.first) code += 1;
   if (part.last == line.span.last) code += 2;
   LinePieces pieces;
   body.divide(line, part, pieces);
   int last = -1;
   for (const LinePiece& piece : pieces.all()) {
-    if (piece.face != last) code = 7 * code + piece.face + 1;
+    if (piece.face != last) {
+      code = 131 * code + static_cast<std::uint64_t>(piece.face) + 1;
+    }
     last = piece.face;
   }
   return code;
 }
 
-}  // namespace
-
-std::optional<TouchedPart> find_touched_part(const RuledSurface& surface,
-                                             const DepthField& body) {
-  if (body.find_t(surface.centre) + surface.find_reach() < 0.0) return {};
-  const Search search(surface, body);
-  const double half = surface.half_u;
-  const bool is_closed = surface.is_closed();
-  const Peak touching = search.find_touching(is_closed ? search.find_sector()
-                                                       : Span{-half, half});
-  if (!(touching.depth > 0.0)) return {};
-  const double middle = is_closed ? touching.u : 0.0;
-  TouchedPart part;
-  part.u = {search.find_end(touching, middle - half),
-            search.find_end(touching, middle + half)};
-  Peak deepest = search.find_deepest(part.u);
-  if (touching.depth > deepest.depth) deepest = touching;
-  const StraightLine line = surface.find_line(deepest.u);
-  part.place = line.at(body.find_deepest(line));
-  part.depth = deepest.depth;
-  return part;
+// Of a polygon, corners within the body, at which the lines' ends bend.
+void add_corners(const RuledSurface& surface, const DepthField& body,
+                 const Span& part, Cuts& out) {
+  constexpr std::size_t kMost = 128;
+  for (std::size_t i = 0; i < surface.outline.size(); ++i) {
+    const Eigen::Vector2d corner = surface.find_corner(i);
+    if (corner[0] > part.first && corner[0] < part.last &&
+        body.find_t(surface.at(corner)) > 0.0 && out.all().size() < kMost) {
+      out.add() = corner[0];
+    }
+  }
+  std::ranges::sort(out.all());
 }
 
-void find_cuts(const RuledSurface& surface, const DepthField& body,
-               const Span& part, Cuts& out) {
+// Where lines of a part change.
+void add_changes(const RuledSurface& surface, const DepthField& body,
+                 const Span& part, Cuts& out) {
   constexpr int kSamples = 6;
   // The nearest face of flats may change along a whole line.
   const int halvings = body.is_flat() ? 45 : 22;
   constexpr double kInside = 1e-5;
-  constexpr std::size_t kMostCuts = 28;
-  out.add() = part.first;
+  constexpr std::size_t kMost = 500;
   double u = part.first + kInside * part.length();
-  int code = describe_line(surface, body, u);
+  std::uint64_t code = describe_line(surface, body, u);
   for (int i = 1; i <= kSamples; ++i) {
     const double share =
         i == kSamples ? 1.0 - kInside : static_cast<double>(i) / kSamples;
     const double end = part.first + share * part.length();
-    const int next = describe_line(surface, body, end);
-    while (code != next && out.all().size() < kMostCuts) {
+    const std::uint64_t next = describe_line(surface, body, end);
+    while (code != next && out.all().size() < kMost) {
       double before = u;
       double after = end;
-      int found = next;
+      std::uint64_t found = next;
       for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (before + after);
-        const int at = describe_line(surface, body, middle);
+        const std::uint64_t at = describe_line(surface, body, middle);
         if (at == code) {
           before = middle;
         } else {
@@ -181,8 +175,49 @@ void find_cuts(const RuledSurface& surface, const DepthField& body,
     u = end;
     code = next;
   }
-  if (surface.is_closed() && out.all().size() == 1) out.add() = part.middle();
-  out.add() = part.last;
+}
+
+}  // namespace
+
+std::optional<TouchedPart> find_touched_part(const RuledSurface& surface,
+                                             const DepthField& body) {
+  const Search search(surface, body);
+  const Span all = surface.u;
+  const bool is_closed = surface.is_closed();
+  const Peak touching =
+      search.find_touching(is_closed ? search.find_sector() : all);
+  if (!(touching.depth > 0.0)) return {};
+  const double half = 0.5 * all.length();
+  const double middle = is_closed ? touching.u : all.middle();
+  TouchedPart part;
+  part.u = {search.find_end(touching, middle - half),
+            search.find_end(touching, middle + half)};
+  Peak deepest = search.find_deepest(part.u);
+  if (touching.depth > deepest.depth) deepest = touching;
+  const StraightLine line = surface.find_line(deepest.u);
+  part.place = line.at(body.find_deepest(line));
+  part.depth = deepest.depth;
+  return part;
+}
+
+void find_cuts(const RuledSurface& surface, const DepthField& body,
+               const Span& part, Cuts& out) {
+  Cuts corners;
+  add_corners(surface, body, part, corners);
+  out.add() = part.first;
+  double first = part.first;
+  const auto add_part = [&](double last) {
+    if (!(last > first)) return;
+    add_changes(surface, body, {first, last}, out);
+    out.add() = last;
+    first = last;
+  };
+  for (const double corner : corners.all()) add_part(corner);
+  add_part(part.last);
+  if (surface.is_closed() && out.all().size() == 2) {
+    out.all()[1] = part.middle();
+    out.add() = part.last;
+  }
 }
 
 }  // namespace limber::contact

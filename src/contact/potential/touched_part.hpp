@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "limber/contact/potential/depth_field.hpp"
 #include "limber/contact/potential/ruled_surface.hpp"
 
 namespace limber::contact {
@@ -20,7 +21,7 @@ struct TouchedPart {
 [[nodiscard]] std::optional<TouchedPart> find_touched_part(
     const RuledSurface& surface, const DepthField& body);
 
-using Cuts = StackArray<double, 32>;
+using Cuts = StackArray<double, 512>;
 
 /// Ascending values of u between which the part of the line within the body has
 /// the same ends and faces, both ends of `part` included.

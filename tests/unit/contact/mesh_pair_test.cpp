@@ -51,6 +51,10 @@ Scene make_scene(const ContactSide& fixed, const TestMesh& mesh,
   return scene;
 }
 
+ContactSide make_round(const ShapeKind& shape) {
+  return {Shape{shape, {}}, SurfaceMaterial{kModulus, 0.3}, kMass, kInertia};
+}
+
 Vector3 lean(double slope) {
   return kGravity * Vector3(std::sin(slope), 0.0, -std::cos(slope));
 }
@@ -115,16 +119,13 @@ TEST(MeshPair, GainsNoEnergyWhereAMeshFallsAndTopples) {
   }
 }
 
-Scene make_strike(const TestMesh& a_mesh, const TestMesh& b_mesh,
-                  double friction, double e, bool is_swapped,
-                  const Pose& X = {}) {
+Scene make_strike(const ContactSide& A, const ContactSide& B, double friction,
+                  double e, bool is_swapped, const Pose& X = {}) {
   const ContactParameters parameters{.friction = {.sliding = friction},
                                      .restitution = e};
   SystemBuilder builder;
   const auto a = builder.add_rigid_body("a", {kMass, kInertia});
   const auto b = builder.add_rigid_body("b", {kMass, kInertia});
-  const ContactSide A = make_side(a_mesh);
-  const ContactSide B = make_side(b_mesh);
   is_swapped ? builder.add_pair("b/a", b, a,
                                 std::make_shared<PatchPair>(B, A, parameters))
              : builder.add_pair("a/b", a, b,
@@ -144,9 +145,13 @@ Scene make_strike(const TestMesh& a_mesh, const TestMesh& b_mesh,
 }
 
 TEST(MeshPair, KeepsEnergyAndMomentumOfMeshesThatStrike) {
-  for (const TestMesh& other : {make_angle(), make_rod(12, 0.03, 0.04)}) {
+  for (const ContactSide& other :
+       {make_side(make_angle()), make_side(make_rod(12, 0.03, 0.04)),
+        make_round(Cylinder{0.03, 0.04}), make_round(Capsule{0.02, 0.03}),
+        make_round(Sphere{0.04})}) {
     for (const double friction : {0.0, 0.4}) {
-      Scene scene = make_strike(make_channel(), other, friction, 1.0, false);
+      Scene scene =
+          make_strike(make_side(make_channel()), other, friction, 1.0, false);
       const double before = scene.find_energy().total();
       scene.go(0.3, 1e-3, IntegratorKind::energy_conserving);
       EXPECT_GE(scene.record.contacts.size(), 1U);
@@ -165,17 +170,20 @@ TEST(MeshPair, KeepsEnergyAndMomentumOfMeshesThatStrike) {
 
 TEST(MeshPair, DoesNotDependOnNamesPlaceAndAxes) {
   const Pose X{exp_rotation(Vector3(0.3, -1.0, 2.0)), {1e3, -5e2, 2e3}};
-  const TestMesh a = make_channel();
-  const TestMesh b = make_angle();
-  Scene one = make_strike(a, b, 0.4, 0.6, false);
-  Scene swapped = make_strike(a, b, 0.4, 0.6, true);
-  Scene moved = make_strike(a, b, 0.4, 0.6, false, X);
-  for (Scene* scene : {&one, &swapped, &moved}) scene->go(0.12, 1e-3);
-  EXPECT_GE(one.record.contacts.size(), 1U);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Vector3& v = one.state.bodies[i].v_WB_W;
-    EXPECT_LT((swapped.state.bodies[i].v_WB_W - v).norm(), 1e-8);
-    EXPECT_LT((moved.state.bodies[i].v_WB_W - X.R * v).norm(), 1e-5);
+  const ContactSide a = make_side(make_channel());
+  for (const ContactSide& b :
+       {make_side(make_angle()), make_round(Cylinder{0.03, 0.04}),
+        make_round(Sphere{0.04})}) {
+    Scene one = make_strike(a, b, 0.4, 0.6, false);
+    Scene swapped = make_strike(a, b, 0.4, 0.6, true);
+    Scene moved = make_strike(a, b, 0.4, 0.6, false, X);
+    for (Scene* scene : {&one, &swapped, &moved}) scene->go(0.12, 1e-3);
+    EXPECT_GE(one.record.contacts.size(), 1U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3& v = one.state.bodies[i].v_WB_W;
+      EXPECT_LT((swapped.state.bodies[i].v_WB_W - v).norm(), 1e-8);
+      EXPECT_LT((moved.state.bodies[i].v_WB_W - X.R * v).norm(), 1e-5);
+    }
   }
 }
 
@@ -228,6 +236,14 @@ TEST(MeshPair, SuitsMeshesAndFlatSolids) {
   EXPECT_TRUE(PatchPair::suits(angle, make_table(), {}));
   EXPECT_FALSE(PatchPair::suits(angle, angle, {.stiffness = 1e9}));
   EXPECT_FALSE(PatchPair::suits(make_side(make_globe(100, 0.1)), angle, {}));
+  for (const ShapeKind& shape :
+       {ShapeKind(Cylinder{0.03, 0.04}), ShapeKind(Capsule{0.02, 0.03}),
+        ShapeKind(Sphere{0.04})}) {
+    EXPECT_TRUE(PatchPair::suits(angle, make_round(shape), {}));
+    EXPECT_TRUE(PatchPair::suits(make_round(shape), angle, {}));
+    EXPECT_FALSE(PatchPair::suits(make_side(make_globe(40, 0.1)),
+                                  make_round(shape), {}));
+  }
 }
 
 }  // namespace

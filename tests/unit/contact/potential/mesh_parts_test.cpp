@@ -24,8 +24,7 @@ double sum_volumes(const std::vector<ConvexSolid>& parts) {
 }
 
 Patch press(const ConvexSolid& A, const ConvexSolid& B, const Pose& X_B) {
-  const PairPotential potential(PlacedSolid{A, {}}, PlacedSolid{B, {}},
-                                kModulus);
+  const PairPotential potential(PlacedBody{A, {}}, PlacedBody{B, {}}, kModulus);
   return potential.evaluate(
       {{Matrix3::Identity(), Vector3::Zero()}, {X_B.R, X_B.p}}, true);
 }

@@ -84,7 +84,7 @@ PairPotential make_potential(const Placing& placing) {
 
 // A square of 2 a below z = 0, with these edges on a rim: 0 at y = -a, then
 // right-hand about z.
-PlacedSolid make_slab(double a, const std::vector<std::size_t>& rim) {
+PlacedBody make_slab(double a, const std::vector<std::size_t>& rim) {
   Matrix3X corners(3, 4);
   corners << -a, a, a, -a, -a, -a, a, a, 0, 0, 0, 0;
   return {ConvexSolid::make_slab(corners, rim, 0.02), {}};
@@ -199,7 +199,7 @@ TEST(PairPotential, IsTheSameElsewhereAndTurned) {
 TEST(PairPotential, OfAPartHasTheGradientOfItsEnergy) {
   for (const std::size_t edges : {0U, 4U}) {
     const std::vector<std::size_t> all{0, 1, 2, 3};
-    const PlacedSolid slab =
+    const PlacedBody slab =
         make_slab(0.2, {all.begin(), all.begin() + static_cast<long>(edges)});
     for (const Vector3& tilt : {Vector3(0, 0, 0.3), Vector3(3e-4, 1e-4, 0.3),
                                 Vector3(0.6, 0.4, 0.2)}) {
@@ -207,7 +207,7 @@ TEST(PairPotential, OfAPartHasTheGradientOfItsEnergy) {
       // The lowest corner next to the edge, or a side over it.
       X.p.x() += 0.2 - 3e-5 - find_lowest(X).x();
       if (tilt.norm() < 0.5) X.p.x() -= 0.01;
-      const PlacedSolid box{ConvexSolid(Box{kHalf}), {}};
+      const PlacedBody box{ConvexSolid(Box{kHalf}), {}};
       for (const bool is_swapped : {false, true}) {
         SCOPED_TRACE(::testing::Message() << edges << ", " << tilt.transpose()
                                           << (is_swapped ? ", swapped" : ""));
@@ -248,8 +248,8 @@ TEST(PairPotential, OfAPartWithItsRimIsThatOfABox) {
 }
 
 TEST(SeriesPotential, OfAFlatIsItsSpringInSeriesWithTheLayer) {
-  const PlacedSolid slab = make_slab(0.2, {0, 1, 2, 3});
-  const PlacedSolid plane{ConvexSolid(HalfSpace{}), {}};
+  const PlacedBody slab = make_slab(0.2, {0, 1, 2, 3});
+  const PlacedBody plane{ConvexSolid(HalfSpace{}), {}};
   const double k = 2.0 * kModulus * std::sqrt(0.16 / std::numbers::pi);
   for (const double R : {0.0, 0.1 / k, 1.0 / k, 1e3 / k}) {
     const SeriesPotential potential(plane, slab, kModulus, 0.0, R);
@@ -266,9 +266,9 @@ TEST(SeriesPotential, OfAFlatIsItsSpringInSeriesWithTheLayer) {
 }
 
 TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
-  const PlacedSolid slab = make_slab(0.05, {0, 1, 2, 3});
-  const PlacedSolid table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
-                          {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
+  const PlacedBody slab = make_slab(0.05, {0, 1, 2, 3});
+  const PlacedBody table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
+                         {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
   for (const double R : {1e-12, 1e-10, 1e-8}) {
     const SeriesPotential potential(slab, table, kModulus, R, 0.0);
     for (const Vector3& tilt : {Vector3(1e-4, 0, 0), Vector3(0.2, 0.1, 0)}) {

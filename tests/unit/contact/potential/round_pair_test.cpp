@@ -32,9 +32,9 @@ PairPotential make_potential(const Placing& placing) {
 
 DepthMoments find_moments(const ShapeKind& soft, const ShapeKind& hard,
                           const Pose& X, const Vector3& o) {
-  const DepthField field(soft);
-  const DepthField other(hard);
-  return SurfaceContact(field, other, X).integrate(o, 1.0, true);
+  const RuledBody body(make_body(soft));
+  const RuledBody other(make_body(hard));
+  return SurfaceContact(body, other, X).integrate(o, 1.0, true);
 }
 
 // ---- M of one body's depth
@@ -126,9 +126,10 @@ TEST(SurfaceContact, HasTheHessianOfItsMoment) {
       continue;
     }
     SCOPED_TRACE(placing.name);
-    const Vector3 o = SurfaceContact(DepthField(placing.A),
-                                     DepthField(placing.B), placing.X_WB)
-                          .deepest_place();
+    const Vector3 o =
+        SurfaceContact(RuledBody(make_body(placing.A)),
+                       RuledBody(make_body(placing.B)), placing.X_WB)
+            .deepest_place();
     const auto at = [&](const Vector6& by) {
       return find_moments(placing.A, placing.B, move(placing.X_WB, by, o), o);
     };
@@ -339,12 +340,15 @@ TEST(RoundPair, IsNothingApart) {
 }
 
 TEST(RoundPair, LeavesSmoothPairsToHertz) {
-  EXPECT_FALSE(RoundPair::suits(kBall, kPlane));
-  EXPECT_FALSE(RoundPair::suits(kBall, kPill));
-  EXPECT_FALSE(RoundPair::suits(kPill, kPill));
-  EXPECT_FALSE(RoundPair::suits(kBox, kPlane));
-  EXPECT_TRUE(RoundPair::suits(kPill, kPlane));
-  EXPECT_TRUE(RoundPair::suits(kBall, kRod));
+  const auto suits = [](const ShapeKind& A, const ShapeKind& B) {
+    return RoundPair::suits(make_body(A), make_body(B));
+  };
+  EXPECT_FALSE(suits(kBall, kPlane));
+  EXPECT_FALSE(suits(kBall, kPill));
+  EXPECT_FALSE(suits(kPill, kPill));
+  EXPECT_FALSE(suits(kBox, kPlane));
+  EXPECT_TRUE(suits(kPill, kPlane));
+  EXPECT_TRUE(suits(kBall, kRod));
 }
 
 }  // namespace

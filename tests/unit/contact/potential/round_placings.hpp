@@ -41,6 +41,8 @@ inline Pose lower(const ShapeKind& shape, const Matrix3& R, double d) {
   double reach = 0.0;
   if (const auto* box = std::get_if<Box>(&shape)) {
     reach = (R.transpose() * Vector3::UnitZ()).cwiseAbs().dot(box->half_size);
+  } else if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    reach = ball->radius;
   } else if (const auto* pill = std::get_if<Capsule>(&shape)) {
     reach = pill->radius + pill->half_length * std::abs(R(2, 2));
   } else if (const auto* rod = std::get_if<Cylinder>(&shape)) {
