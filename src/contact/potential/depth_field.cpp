@@ -11,7 +11,7 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::max();
+constexpr double kUnbounded = std::numeric_limits<double>::max();
 
 double power4(double t) { return t * t * t * t; }
 
@@ -21,7 +21,8 @@ Span intersect(const Span& a, const Span& b) {
 
 // |p + v m| <= h
 Span find_slab(double p, double m, double h) {
-  if (m == 0.0) return std::abs(p) <= h ? Span{-kFar, kFar} : Span{};
+  if (m == 0.0)
+    return std::abs(p) <= h ? Span{-kUnbounded, kUnbounded} : Span{};
   const double middle = -p / m;
   const double half = h / std::abs(m);
   return {middle - half, middle + half};
@@ -32,7 +33,7 @@ template <typename Vector>
 Span find_chord(const Vector& o, const Vector& w, double radius) {
   const double a = w.squaredNorm();
   if (!(a > 0.0)) {
-    return o.norm() <= radius ? Span{-kFar, kFar} : Span{};
+    return o.norm() <= radius ? Span{-kUnbounded, kUnbounded} : Span{};
   }
   const double middle = -o.dot(w) / a;
   const double square = radius * radius - (o + middle * w).squaredNorm();
@@ -112,7 +113,7 @@ double deepest(const Capsule& shape, const StraightLine& line) {
 Span part_within(const Capsule& shape, const StraightLine& line) {
   const Vector3& o = line.origin;
   const Vector3& w = line.way;
-  Span all{kFar, -kFar};
+  Span all{kUnbounded, -kUnbounded};
   const auto unite = [&](const Span& part) {
     if (part.is_empty()) return;
     all = {std::min(all.first, part.first), std::max(all.last, part.last)};
@@ -155,14 +156,15 @@ std::array<double, 2> find_rim_crossings(const Cylinder& shape,
   const double b = o.dot(w) - p * m;
   const double c = o.squaredNorm() - p * p;
   const double square = b * b - a * c;
-  if (!(square >= 0.0)) return {kFar, kFar};
+  if (!(square >= 0.0)) return {kUnbounded, kUnbounded};
   const double q = -(b + std::copysign(std::sqrt(square), b));
   const auto keep = [&](double v) {
     return p + m * v >= 0.0 && s * (line.origin.z() + v * line.way.z()) >= 0.0
                ? v
-               : kFar;
+               : kUnbounded;
   };
-  return {a != 0.0 ? keep(q / a) : kFar, q != 0.0 ? keep(c / q) : kFar};
+  return {a != 0.0 ? keep(q / a) : kUnbounded,
+          q != 0.0 ? keep(c / q) : kUnbounded};
 }
 double deepest(const Cylinder& shape, const StraightLine& line) {
   const auto side = [&](double v) {
@@ -263,7 +265,7 @@ double find_t_of(const Round& shape, const Vector3& x) {
 }
 Span find_extent_of(const SolidField& field, const Vector3& n) {
   const ConvexSolid& solid = field.solid();
-  if (!solid.is_bounded()) return {-kFar, kFar};
+  if (!solid.is_bounded()) return {-kUnbounded, kUnbounded};
   return {solid.find_low(n), solid.find_high(n)};
 }
 template <typename Round>

@@ -45,6 +45,7 @@ LineRule<count>::LineRule() {
 
 template struct LineRule<3>;
 template struct LineRule<6>;
+template struct LineRule<8>;
 template struct LineRule<12>;
 
 }  // namespace limber::contact

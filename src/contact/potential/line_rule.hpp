@@ -15,7 +15,7 @@ struct LineRule {
   LineRule();
 };
 
-/// @tparam count 3, 6 or 12
+/// @tparam count 3, 6, 8 or 12
 template <std::size_t count>
 [[nodiscard]] const LineRule<count>& line_rule() {
   static const LineRule<count> rule;
@@ -24,6 +24,7 @@ template <std::size_t count>
 
 extern template struct LineRule<3>;
 extern template struct LineRule<6>;
+extern template struct LineRule<8>;
 extern template struct LineRule<12>;
 
 }  // namespace limber::contact

@@ -61,6 +61,11 @@ Matrix3 find_moving_turns(const PlacedBody& body) {
   return Matrix3::Identity() - axis * axis.transpose();
 }
 
+bool are_capsules(const BodyKind& A, const BodyKind& B) {
+  return std::holds_alternative<Capsule>(A) &&
+         std::holds_alternative<Capsule>(B);
+}
+
 bool is_bounded(const BodyKind& body) {
   const auto* solid = std::get_if<ConvexSolid>(&body);
   return solid == nullptr || solid->is_bounded();
@@ -75,7 +80,7 @@ Vector3 find_middle(const Polytope& polytope) {
 }  // namespace
 
 bool PairPotential::suits(const BodyKind& A, const BodyKind& B) {
-  if (HertzPair::suits(A, B)) return true;
+  if (are_capsules(A, B) || HertzPair::suits(A, B)) return true;
   const auto* of_A = std::get_if<ConvexSolid>(&A);
   const auto* of_B = std::get_if<ConvexSolid>(&B);
   if (of_A == nullptr || of_B == nullptr) return RoundPair::suits(A, B);
@@ -94,6 +99,10 @@ PairPotential::PairPotential(const PlacedBody& A, const PlacedBody& B,
   turns_B_ = find_moving_turns(B);
   if (HertzPair::suits(A.kind, B.kind)) {
     point_.emplace(A.kind, B.kind, modulus);
+    return;
+  }
+  if (are_capsules(A.kind, B.kind)) {
+    capsules_.emplace(std::get<Capsule>(A.kind), std::get<Capsule>(B.kind));
     return;
   }
   if (RoundPair::suits(A.kind, B.kind)) {
@@ -129,9 +138,23 @@ std::optional<PairMoments> PairPotential::find_moments(
                 : find_flat_moments(X_A, X_B, has_derivatives);
 }
 
+Patch PairPotential::press_capsules(const Pose& X_A, const Pose& X_B,
+                                    bool has_derivatives) const {
+  const auto touch = capsules_->find_touch(X_A, X_B, has_derivatives);
+  if (!touch) return {};
+  return {.touches = true,
+          .energy = modulus_ * touch->energy,
+          .centre_W = touch->centre,
+          .gradient_W = modulus_ * touch->gradient,
+          .hessian_W = modulus_ * touch->hessian,
+          .spread_W = touch->spread,
+          .depth = touch->depth};
+}
+
 Patch PairPotential::press(const Pose& X_A, const Pose& X_B,
                            bool has_derivatives) const {
   if (point_) return point_->evaluate(X_A, X_B);
+  if (capsules_) return press_capsules(X_A, X_B, has_derivatives);
   Patch out;
   const auto moments = find_moments(X_A, X_B, has_derivatives);
   if (!moments || !(moments->of_A.M > 0.0) || !(moments->of_B.M > 0.0)) {

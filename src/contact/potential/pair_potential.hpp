@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "limber/common/types.hpp"
+#include "limber/contact/potential/capsule_pair.hpp"
 #include "limber/contact/potential/depth_moments.hpp"
 #include "limber/contact/potential/hertz_pair.hpp"
 #include "limber/contact/potential/patch.hpp"
@@ -18,7 +19,7 @@ namespace limber::contact {
 /// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
 ///            that of a round punch [@johnson1985]; f = 1 of polyhedra, else of
-///            RoundPair; of balls as HertzPair
+///            RoundPair; of balls as HertzPair, of two capsules as CapsulePair
 /// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
@@ -37,13 +38,16 @@ class PairPotential {
   /// Whether as HertzPair.
   [[nodiscard]] bool is_point() const { return point_.has_value(); }
 
-  /// Two solids, one of them bounded, or as RoundPair or HertzPair.
+  /// Two solids, one of them bounded, two capsules, or as RoundPair or
+  /// HertzPair.
   [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
  private:
   // From the origin of both shapes' poses.
   [[nodiscard]] Patch press(const Pose& X_A, const Pose& X_B,
                             bool has_derivatives) const;
+  [[nodiscard]] Patch press_capsules(const Pose& X_A, const Pose& X_B,
+                                     bool has_derivatives) const;
   [[nodiscard]] std::optional<PairMoments> find_moments(
       const Pose& X_A, const Pose& X_B, bool has_derivatives) const;
   [[nodiscard]] std::optional<PairMoments> find_flat_moments(
@@ -52,6 +56,7 @@ class PairPotential {
   std::optional<ConvexSolid> A_;
   std::optional<ConvexSolid> B_;
   std::optional<RoundPair> round_;
+  std::optional<CapsulePair> capsules_;
   std::optional<HertzPair> point_;
   // See Patch, in the bodies' frames.
   Matrix3 turns_A_ = Matrix3::Identity();

@@ -139,11 +139,13 @@ TEST(RoundPatch, TopplesOverItsRimAndGainsNothing) {
   }
 }
 
-// A capsule's side on a cylinder's rim: both free.
-Scene make_strike(bool is_swapped, double e) {
+const Capsule kPill{kRod.radius, kRod.half_length};
+
+// A capsule's side on a cylinder's rim or on a capsule: both free.
+Scene make_strike(bool is_swapped, double e, const ShapeKind& other = kRod) {
   SystemBuilder builder;
-  const ContactSide pill = make_rod(Capsule{kRod.radius, kRod.half_length});
-  const ContactSide rod = make_rod();
+  const ContactSide pill = make_rod(kPill);
+  const ContactSide rod = make_rod(other);
   const auto first = builder.add_rigid_body("pill", {kMass, pill.inertia_B});
   const auto second = builder.add_rigid_body("rod", {kMass, rod.inertia_B});
   const ContactParameters law{.friction = {.sliding = 0.0}, .restitution = e};
@@ -179,15 +181,34 @@ TEST(RoundPatch, KeepsMomentumAndEnergyOfACapsuleOnARim) {
   }
 }
 
+// Side on end, side on side across and along.
+TEST(RoundPatch, KeepsMomentumAndEnergyOfTwoCapsules) {
+  for (const Vector3& turned : {Vector3(0.6, 0.2, 0), Vector3(0, kPi / 2, 0.1),
+                                Vector3(kPi / 2, 0, 0.301)}) {
+    Scene scene = make_strike(false, 1.0, kPill);
+    scene.state.bodies[1].quat_WB = Quaternion(exp_rotation(turned));
+    const double before = scene.find_energy().total();
+    scene.go(0.3, 1e-3, dynamics::IntegratorKind::energy_conserving);
+    const Vector3 momentum =
+        kMass * (scene.state.bodies[0].v_WB_W + scene.state.bodies[1].v_WB_W);
+    EXPECT_LT((momentum - Vector3(0, 0, 0.5)).norm(), 1e-9);
+    EXPECT_GT(scene.state.bodies[1].v_WB_W.z(), 0.05);  // struck
+    EXPECT_NEAR(scene.find_energy().total() / before, 1.0, 1e-9);
+    EXPECT_EQ(scene.statistics.halved_steps, 0);
+  }
+}
+
 TEST(RoundPatch, DoesNotDependOnNames) {
-  Scene one = make_strike(false, 0.5);
-  Scene other = make_strike(true, 0.5);
-  one.go(0.2, 1e-4);
-  other.go(0.2, 1e-4);
-  for (std::size_t b = 0; b < 2; ++b) {
-    EXPECT_LT(
-        (one.state.bodies[b].v_WB_W - other.state.bodies[b].v_WB_W).norm(),
-        1e-8);
+  for (const ShapeKind& shape : {ShapeKind(kRod), ShapeKind(kPill)}) {
+    Scene one = make_strike(false, 0.5, shape);
+    Scene other = make_strike(true, 0.5, shape);
+    one.go(0.2, 1e-4);
+    other.go(0.2, 1e-4);
+    for (std::size_t b = 0; b < 2; ++b) {
+      EXPECT_LT(
+          (one.state.bodies[b].v_WB_W - other.state.bodies[b].v_WB_W).norm(),
+          1e-8);
+    }
   }
 }
 
