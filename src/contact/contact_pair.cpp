@@ -24,7 +24,7 @@ using joints::PairBodies;
 using joints::PairBody;
 
 // Features whose depths differ by at most this share of the shapes' size, such
-// as the corners of a box that lands flat, begin to touch together [-].
+// as the pads of a surface that lands flat, begin to touch together [-].
 constexpr double kTogether = 1e-9;
 
 // Of the couple of friction about the normal, over the shapes' size [-].
@@ -76,9 +76,9 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
       mode_reach_B_(find_mode_reach(B_.shape)) {
   if (parameters.rolling_friction > 0.0) {
     throw InputError(
-        "contact: rolling_friction acts between shapes of known material, of "
-        "which none is the whole surface of a flexible link, without radius, "
-        "stiffness or damping");
+        "contact: rolling_friction does not act on these shapes: a curved "
+        "surface of a flexible link, or a ball on a flexible link or a "
+        "capsule");
   }
 }
 

@@ -14,8 +14,9 @@ namespace limber::contact {
 
 struct Touch;
 
-/// Contact of two shapes: at each of their features a normal force, which
-/// stores energy and is damped to a restitution, and friction.
+/// Contact of two shapes that have no potential (PatchPair): at each of their
+/// features a normal force, which stores energy and is damped to a restitution,
+/// and friction.
 ///
 /// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth
 ///            with one s of all features that touch (find_damping), k for 1/R_e

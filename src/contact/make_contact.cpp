@@ -3,13 +3,14 @@
 
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patch_sides.hpp"
 
 namespace limber::contact {
 
 std::shared_ptr<const joints::PairInteraction> make_contact(
     const ContactSide& A, const ContactSide& B,
     const ContactParameters& parameters) {
-  if (PatchPair::suits(A, B, parameters)) {
+  if (suits(A, B)) {
     return std::make_shared<const PatchPair>(A, B, parameters);
   }
   return std::make_shared<const ContactPair>(A, B, parameters);

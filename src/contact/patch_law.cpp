@@ -89,9 +89,23 @@ PatchLaw::PatchLaw(const ContactParameters& parameters,
       shells_(make_patch_shells(parameters, moduli, is_point, size)),
       slides_(parameters.friction.sliding + parameters.friction.excess > 0.0),
       rolling_arm_(parameters.rolling_friction),
-      factor_(0.0) {
+      damping_(parameters.damping) {
   check(parameters);
-  factor_ = find_restitution_factor(parameters.restitution);
+  if (!damping_) factor_ = find_restitution_factor(parameters.restitution);
+}
+
+struct PatchLaw::Rate {
+  double s = 0.0;          // [s/m]
+  double by_square = 0.0;  // ds by a square of speed [s^3/m^3]
+};
+
+PatchLaw::Rate PatchLaw::find_rate(const PatchMotion& all) const {
+  if (damping_) return {.s = *damping_};
+  const double square =
+      all.square / all.load + 2.0 * all.energy * all.inverse_mass;
+  if (factor_ == 0.0 || !(square > 0.0)) return {};
+  const double s = factor_ / std::sqrt(square);
+  return {s, -0.5 * s / square};
 }
 
 double PatchLaw::find_square(const Patch& patch, const Vector6& twist_W) {
@@ -99,7 +113,7 @@ double PatchLaw::find_square(const Patch& patch, const Vector6& twist_W) {
 }
 
 // -s D twist, D of pressure along the normal; with d = D twist and vv = d .
-// twist, ds = -s / (2 v^2) (d(vv / N) + 2 dW / m), d the change; that of other
+// twist, ds = by_square (d(vv / N) + 2 dW / m), d the change; that of other
 // patches is left out.
 void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Patch& patch = in.patch;
@@ -107,11 +121,8 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Vector3 n = patch.normal_W();
   const Matrix6 D = find_pressure_matrix(patch);
   const Vector6 d = D * in.twist_W;
-  const double square =
-      in.all.square / N + 2.0 * in.all.energy * in.all.inverse_mass;
-  if (factor_ == 0.0 || !(square > 0.0)) return;
-  const double s = factor_ / std::sqrt(square);
-  const double slope = -0.5 * s / square;
+  const auto [s, slope] = find_rate(in.all);
+  if (s == 0.0) return;
   const Vector6 load_by_motion = -patch.hessian_W.topRows<3>().transpose() * n;
   const Vector6 s_by_motion =
       slope * 2.0 * in.all.inverse_mass * patch.gradient_W;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/friction_memory.hpp"
 #include "limber/contact/law/load_shells.hpp"
@@ -47,10 +49,10 @@ struct PatchResponse {
 ///
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
-///            sum W / m) over all patches of the pair,
-///            the normal force >= 0; friction of LoadShells with the load N ~
-///            d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e =
-///            0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the
+///            sum W / m) over all patches of the pair, or the damping asked
+///            for, the normal force >= 0; friction of LoadShells with the load
+///            N ~ d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e
+///            = 0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the
 ///            stiffness is 1.875 G_r / G* times as large, which is right under
 ///            Hertz's pressure and 25 % high for a round flat; of a point r_e =
 ///            3 pi a / 16 and 512 / (27 pi^2) G_r / G*; resist_rolling
@@ -91,6 +93,8 @@ class PatchLaw {
   [[nodiscard]] double find_energy(const FrictionMemory& memory) const;
 
  private:
+  struct Rate;  // s of the damping
+  [[nodiscard]] Rate find_rate(const PatchMotion& all) const;
   void add_damping(const Input& in, PatchResponse& out) const;
   void add_friction(const Input& in, PatchResponse& out) const;
   // @param pressed without friction
@@ -108,8 +112,9 @@ class PatchLaw {
   bool is_point_;
   LoadShells shells_;
   bool slides_;
-  double rolling_arm_;  // [m]
-  double factor_;       // beta [-]
+  double rolling_arm_;             // [m]
+  double factor_ = 0.0;            // beta [-]
+  std::optional<double> damping_;  // s in place of it [s/m]
 };
 
 /// r_e of a patch's resistance to spin [m].

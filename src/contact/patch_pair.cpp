@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/patch_moduli.hpp"
 #include "limber/contact/patch_sides.hpp"
 #include "limber/contact/patch_slip.hpp"
 #include "limber/contact/shape_measures.hpp"
@@ -52,14 +53,6 @@ Vector3 find_force_of_gain(const PatchResponse& response, const Vector6& motion,
 
 }  // namespace
 
-bool PatchPair::suits(const ContactSide& A, const ContactSide& B,
-                      const ContactParameters& parameters) {
-  const bool has_own =
-      parameters.radius || parameters.stiffness || parameters.damping;
-  return contact::suits(A, B) && !has_own &&
-         find_pair_moduli(A.material, B.material).has_value();
-}
-
 PatchPair::PatchPair(ContactSide A, ContactSide B,
                      const ContactParameters& parameters)
     : A_(std::move(A)),
@@ -68,14 +61,14 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       reach_B_(find_mode_reach(B_.shape)),
       mass_(A_, B_, parameters),
       parameters_(parameters),
+      moduli_(find_patch_moduli(A_, B_, parameters)),
       parts_A_(make_parts(A_)),
       parts_B_(make_parts(B_)),
-      potentials_(make_potentials(A_, parts_A_, B_, parts_B_)),
+      potentials_(make_potentials(A_, parts_A_, B_, parts_B_, moduli_.normal)),
       size_(contact::find_size(A_.shape, B_.shape)),
-      law_(parameters, *find_pair_moduli(A_.material, B_.material),
+      law_(parameters, moduli_,
            !potentials_.empty() && potentials_.front().is_point(), size_) {
-  LIMBER_EXPECT(suits(A_, B_, parameters));
-  (void)check_masses(A_, B_);
+  LIMBER_EXPECT(suits(A_, B_));
 }
 
 void PatchPair::describe_parameters(Manifest& out) const {
@@ -146,9 +139,9 @@ double PatchPair::find_energy(const PatchTouch* touch) {
 
 PatchPoints PatchPair::place_points(const Patch& patch) const {
   const Vector3 n = patch.normal_W();
-  return {patch.centre_W, n,
-          std::max(std::sqrt(std::max(0.0, patch.spread_W.trace())),
-                   kLeastRadius * size_)};
+  // Bodies that are deep in each other may have pressures that cancel.
+  const double square = std::max(0.0, patch.spread_W.trace());
+  return {patch.centre_W, n, std::max(std::sqrt(square), kLeastRadius * size_)};
 }
 
 void PatchPair::add_points(const PairBodies& bodies, const PatchTouch& touch,

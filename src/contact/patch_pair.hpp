@@ -33,9 +33,9 @@ class PatchPair final : public joints::PairInteraction,
                         public joints::Touching {
  public:
   /// @throws InputError, without the pair's name, for a value outside its
-  /// range, two sides of which neither has a finite mass or a material, and a
+  /// range or a meaning, two sides of which neither has a finite mass, and a
   /// restitution of a body without inertia.
-  /// @throws ContractError unless suits(A, B, parameters).
+  /// @throws ContractError unless suits(A, B).
   PatchPair(ContactSide A, ContactSide B, const ContactParameters& parameters);
 
   [[nodiscard]] std::string_view kind() const override { return "patch"; }
@@ -79,11 +79,6 @@ class PatchPair final : public joints::PairInteraction,
       const joints::PairBodies& bodies, const Instant& now,
       std::span<const double> memory,
       joints::PairResponse& scratch) const override;
-
-  /// Whether it holds for these: solids or surfaces with parts, of which one
-  /// has a material, and none of the parameters of a point of contact.
-  [[nodiscard]] static bool suits(const ContactSide& A, const ContactSide& B,
-                                  const ContactParameters& parameters);
 
  private:
   struct Nearest;
@@ -129,6 +124,7 @@ class PatchPair final : public joints::PairInteraction,
   VectorX reach_B_;
   OpposedMass mass_;
   ContactParameters parameters_;
+  PairModuli moduli_;
   std::vector<PatchPart> parts_A_;
   std::vector<PatchPart> parts_B_;
   std::vector<SeriesPotential> potentials_;  // of all pairs, those of A first

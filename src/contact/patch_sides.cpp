@@ -17,12 +17,6 @@ namespace {
 // Of parts.
 constexpr std::size_t kMostPairs = 4096;
 
-double find_modulus(const ContactSide& A, const ContactSide& B) {
-  const auto moduli = find_pair_moduli(A.material, B.material);
-  LIMBER_EXPECT(moduli);
-  return moduli->normal;
-}
-
 const Skin* find_skin(const ShapeKind& shape) {
   const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&shape);
   return skin == nullptr ? nullptr : skin->get();
@@ -102,8 +96,8 @@ std::vector<PatchPart> make_parts(const ContactSide& side) {
 
 std::vector<SeriesPotential> make_potentials(
     const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
-    const ContactSide& side_B, const std::vector<PatchPart>& parts_B) {
-  const double modulus = find_modulus(side_A, side_B);
+    const ContactSide& side_B, const std::vector<PatchPart>& parts_B,
+    double modulus) {
   std::vector<SeriesPotential> potentials;
   for (const PatchPart& A : parts_A) {
     for (const PatchPart& B : parts_B) {

@@ -18,9 +18,10 @@ namespace limber::contact {
 [[nodiscard]] std::vector<PatchPart> make_parts(const ContactSide& side);
 
 /// Of all pairs of parts, those of the first of A first.
-/// @throws ContractError if neither side has a material.
+/// @param modulus E* > 0 [Pa]
 [[nodiscard]] std::vector<SeriesPotential> make_potentials(
     const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
-    const ContactSide& side_B, const std::vector<PatchPart>& parts_B);
+    const ContactSide& side_B, const std::vector<PatchPart>& parts_B,
+    double modulus);
 
 }  // namespace limber::contact

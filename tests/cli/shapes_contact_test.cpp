@@ -15,15 +15,16 @@ namespace {
 using nlohmann::json;
 
 /// A block of 2 kg above a table, whose top is at z = -0.05 - gap.
-json run_block(const Workspace& place, const std::string& geometry, double gap,
-               const std::string& more) {
+void write_block(const Workspace& place, const std::string& geometry,
+                 double gap, const std::string& more, bool has_material) {
   place.write("block.urdf",
               "<robot name='r'><link name='block'><inertial><mass value='2'/>"
               "<inertia ixx='0.0033' iyy='0.0033' izz='0.0033' ixy='0' "
               "ixz='0' iyz='0'/></inertial><collision><geometry>" +
-                  geometry +
-                  "</geometry></collision></link><contact link='block' "
-                  "youngs_modulus='1e10' poisson_ratio='0.3'/></robot>");
+                  geometry + "</geometry></collision></link>" +
+                  (has_material ? "<contact link='block' youngs_modulus='1e10' "
+                                  "poisson_ratio='0.3'/></robot>"
+                                : "</robot>"));
   place.write("scene.toml",
               "robot = 'block.urdf'\n[output]\npictures = false\n"
               "[[probe]]\nname = 'p'\nlink = 'block'\nquantity = 'position'\n"
@@ -31,6 +32,11 @@ json run_block(const Workspace& place, const std::string& geometry, double gap,
               "size = [0.5, 0.5, 0.1]\nposition = [0.0, 0.0, " +
                   std::to_string(-0.1 - gap) +
                   "]\n[[contact]]\nbetween = ['block', 'table']\n" + more);
+}
+
+json run_block(const Workspace& place, const std::string& geometry, double gap,
+               const std::string& more, bool has_material = true) {
+  write_block(place, geometry, gap, more, has_material);
   const CommandResult result = place.limber("run scene.toml --out o --json");
   EXPECT_EQ(result.status, 0) << result.errors;
   return json::parse(result.out, nullptr, false);
@@ -155,6 +161,53 @@ TEST(BlockOnABox, LeapsBackAsItsRestitutionSays) {
                 2e-3)
         << geometry;
   }
+}
+
+constexpr const char* kFall =
+    "friction = 0.0\n[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
+    "[time]\nduration = 0.15\nstep = 1e-3\n";
+
+constexpr const char* kFlight =
+    "friction = 0.0\n[initial.base]\nvelocity = [0.0, 0.0, -1.0]\n"
+    "[time]\nduration = 0.15\nstep = 1e-3\n";
+
+// Without gravity, whose work in a soft impact lowers the speed after it.
+TEST(BlockOnABox, LeapsBackWithoutAMaterialAndWithAStiffness) {
+  for (const char* geometry :
+       {kBox, "<cylinder radius='0.05' length='0.1'/>"}) {
+    for (const std::string own : {"", "stiffness = 1e7\n"}) {
+      const Workspace place;
+      const json run = run_block(place, geometry, 0.05,
+                                 own + "restitution = 0.6\n" + kFlight, false);
+      ASSERT_GE(run["contacts"].size(), 1U) << geometry;
+      EXPECT_NEAR(run["contacts"][0]["restitution"].get<double>(), 0.6, 2e-3)
+          << geometry << own;
+      EXPECT_LT(std::abs(run["contacts"][0]["energy"]["error"].get<double>()),
+                1e-3 * run["contacts"][0]["energy"]["in"].get<double>());
+    }
+  }
+}
+
+// Of a constant damping: (1 + e) b v = ln((1 + b v) / (1 - e b v)).
+TEST(BlockOnABox, LeapsBackAsItsDampingSays) {
+  const Workspace place;
+  const json run =
+      run_block(place, kBox, 0.05, std::string("damping = 0.5\n") + kFall);
+  ASSERT_GE(run["contacts"].size(), 1U);
+  const double x = 0.5 * run["contacts"][0]["touch_speed"].get<double>();
+  const double e = run["contacts"][0]["restitution"].get<double>();
+  EXPECT_GT(e, 0.3);
+  EXPECT_NEAR((1.0 + e) * x, std::log((1.0 + x) / (1.0 - e * x)), 1e-3);
+}
+
+TEST(BlockOnABox, HasNoRadiusOfItsOwn) {
+  const Workspace place;
+  write_block(place, kBox, 0.05, std::string("radius = 0.1\n") + kFall, true);
+  const CommandResult result = place.limber("run scene.toml --out o");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.errors.find("'radius' has no meaning for a box and a box"),
+            std::string::npos)
+      << result.errors;
 }
 
 }  // namespace

@@ -54,14 +54,15 @@ StrikingBody draw_body(RandomDraw& draw, const char* name, int kind,
   const Vector3 moments = Vector3(1.0, 1.0, 1.0) + 0.3 * draw.vector();
   body.inertia_B = 0.4 * body.mass * size * size * moments;
   body.X_WB.R = draw.rotation();
-  body.material = {draw.log_uniform(1e7, 1e10), draw.uniform(0.0, 0.45)};
+  body.material = contact::SurfaceMaterial{draw.log_uniform(1e7, 1e10),
+                                           draw.uniform(0.0, 0.45)};
   return body;
 }
 
 StrikingBody draw_floor(RandomDraw& draw) {
   StrikingBody floor{.name = "B", .shape = {contact::HalfSpace{}, {}}};
   floor.shape.X_BS.R = draw.rotation();
-  floor.material = {draw.log_uniform(1e7, 1e10), 0.3};
+  floor.material = contact::SurfaceMaterial{draw.log_uniform(1e7, 1e10), 0.3};
   return floor;
 }
 
@@ -107,6 +108,17 @@ void place(ContactPlan& plan, RandomDraw& draw, double size, double speed) {
   first.v_WB_W = speed * (way + 0.3 * draw.vector());
   plan.settings.end_time = 5.0 * gap / speed;
   plan.settings.step = plan.settings.end_time / 50.0;
+}
+
+// Of materials, of no material, or of a stiffness.
+const char* draw_modulus(RandomDraw& draw, ContactPlan& plan) {
+  if (draw.chance(0.2)) {
+    for (StrikingBody& body : plan.bodies) body.material.reset();
+    return "no material";
+  }
+  if (!draw.chance(0.25)) return "materials";
+  plan.parameters.stiffness = draw.log_uniform(1e6, 1e9);
+  return "a stiffness";
 }
 
 dynamics::BodyIndex add_body(dynamics::SystemBuilder& builder,
@@ -195,11 +207,16 @@ ContactPlan draw_contact(unsigned seed) {
     plan.parameters.friction.sliding = draw.uniform(0.05, 1.0);
   }
   place(plan, draw, size, speed);
+  const char* modulus = draw_modulus(draw, plan);
+  if (draw.chance(0.2))
+    plan.parameters.damping = draw.uniform(0.0, 1.0) / speed;
   plan.description = fmt::format(
-      "seed {}: {} on {}, size {:.3g} m, speed {:.3g} m/s, e {:.3g}, mu {:.3g}",
+      "seed {}: {} on {}, size {:.3g} m, speed {:.3g} m/s, e {:.3g}, mu "
+      "{:.3g}, modulus of {}{}",
       seed, name_shape(plan.bodies[0].shape), name_shape(plan.bodies[1].shape),
       size, speed, plan.parameters.restitution,
-      plan.parameters.friction.sliding);
+      plan.parameters.friction.sliding, modulus,
+      plan.parameters.damping ? ", damping" : "");
   return plan;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace limber::metamorphic {
 struct StrikingBody {
   std::string name;
   contact::Shape shape;  ///< a half space: the world
-  contact::SurfaceMaterial material = {};
+  std::optional<contact::SurfaceMaterial> material = {};
   double mass = 0.0;                    ///< [kg]
   Vector3 inertia_B = Vector3::Zero();  ///< principal moments [kg m^2]
   Pose X_WB = {};                       ///< at the start
@@ -37,7 +38,8 @@ struct ContactPlan {
 };
 
 /// A scene of a seed, which strikes. Every third has a half space, every
-/// second friction; sizes of 2 to 50 cm, speeds of 0.05 to 5 m/s.
+/// second friction; sizes of 2 to 50 cm, speeds of 0.05 to 5 m/s. Every fifth
+/// is without materials, as many have a stiffness, or a damping, of their own.
 [[nodiscard]] ContactPlan draw_contact(unsigned seed);
 
 /// What became of it at the end.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metamorphic/contact_relations.hpp"
 
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -109,11 +110,14 @@ Answer strike_in_millimetres(const ContactPlan& plan, RandomDraw&) {
   ChangedContact changed{.plan = plan};
   for (StrikingBody& body : changed.plan.bodies) {
     scale(body.shape, kUnit);
-    body.material.youngs_modulus /= kUnit;
+    if (body.material) body.material->youngs_modulus /= kUnit;
     body.inertia_B *= kUnit * kUnit;
     body.X_WB.p *= kUnit;
     body.v_WB_W *= kUnit;
   }
+  contact::ContactParameters& law = changed.plan.parameters;
+  if (law.stiffness) *law.stiffness /= std::sqrt(kUnit);
+  if (law.damping) *law.damping /= kUnit;
   changed.plan.gravity_W *= kUnit;
   changed.undo = [](Strike::Body& body) {
     body.X_WB.p /= kUnit;

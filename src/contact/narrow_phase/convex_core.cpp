@@ -51,16 +51,6 @@ void ConvexCore::scale(double by) {
   scale_ *= by;
 }
 
-double ConvexCore::find_support(const Vector3& n) const {
-  if (!corners_.empty()) return n.dot(find_support_point(n) - centre_);
-  double support = 0.0;
-  for (const Segment& segment : segments()) {
-    support += segment.half_length * std::abs(n.dot(segment.axis));
-  }
-  if (disc_ > 0.0) support += disc_ * n.cross(segments_[0].axis).norm();
-  return support;
-}
-
 Vector3 ConvexCore::find_support_point(const Vector3& n) const {
   if (!corners_.empty()) {
     const Vector3 way = R_.transpose() * n;
@@ -84,13 +74,6 @@ Vector3 ConvexCore::find_support_point(const Vector3& n) const {
     if (length > 1e-12 * n.norm()) point += (disc_ / length) * radial;
   }
   return point;
-}
-
-Matrix3 ConvexCore::find_curvature(const Vector3& n) const {
-  const Vector3 around = segments_[0].axis.cross(n);
-  const double square = around.squaredNorm();
-  if (!(disc_ > 0.0) || !(square > 0.0)) return Matrix3::Zero();
-  return (disc_ / (square * std::sqrt(square))) * around * around.transpose();
 }
 
 }  // namespace limber::contact

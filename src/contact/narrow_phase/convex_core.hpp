@@ -43,13 +43,9 @@ class ConvexCore {
   /// Largest distance of a point from the centre, without the ball [m].
   [[nodiscard]] double size() const { return size_; }
 
-  /// Without the ball, and relative to the centre [m]. @param n unit
-  [[nodiscard]] double find_support(const Vector3& n) const;
   /// A point of the set without the ball that is farthest along n, which may
   /// have any length [m].
   [[nodiscard]] Vector3 find_support_point(const Vector3& n) const;
-  /// Second derivative of the disc's support by n [m]. @param n unit
-  [[nodiscard]] Matrix3 find_curvature(const Vector3& n) const;
 
  private:
   Vector3 centre_;

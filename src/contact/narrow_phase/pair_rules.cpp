@@ -25,13 +25,16 @@ std::optional<NearestOnSurface> find_nearest_of(const PlacedShape& B,
                                                 double reach) {
   return std::visit(
       [&](const auto& shape) -> std::optional<NearestOnSurface> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>,
-                                     SkinPointer>) {
+        using Kind = std::decay_t<decltype(shape)>;
+        if constexpr (std::is_same_v<Kind, SkinPointer>) {
           const auto hit =
               shape->find_nearest(p, find_modal_coordinates(*shape, B.body),
                                   reach + radius, radius);
           if (!hit) return std::nullopt;
           return NearestOnSurface{hit->nearest, hit->place};
+        } else if constexpr (std::is_same_v<Kind, Box> ||
+                             std::is_same_v<Kind, Cylinder>) {
+          return std::nullopt;  // not of this rule
         } else {
           const NearestPoint point = find_nearest(shape, p);
           return NearestOnSurface{point, B.make_place(point.point)};

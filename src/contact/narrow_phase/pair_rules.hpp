@@ -6,8 +6,7 @@
 #include "limber/contact/narrow_phase/meeting.hpp"
 #include "limber/contact/narrow_phase/placed_shape.hpp"
 
-/// The rules of ShapePair, with A the sphere, half space or capsule; of boxes,
-/// cylinders and capsules either.
+/// The rules of ShapePair, with A the sphere, half space or capsule.
 namespace limber::contact {
 
 /// Of a sphere with any shape.
@@ -23,22 +22,6 @@ namespace limber::contact {
 ///
 /// Limits     one point: see find_nearest of segments
 [[nodiscard]] Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B);
-
-/// Features of two shapes out of box, cylinder and capsule: the corners of the
-/// common area of the faces that face each other, and then the nearest points,
-/// with a share that falls to 0 as a corner becomes as deep.
-///
-/// Equation   depth = height of A's face over B's along the normal of least
-///            depth (find_separation)
-/// Limits     the faces and the corners' normal are those of the deepest
-///            point; sides of cylinders and capsules that lie along each other
-///            meet at one point
-[[nodiscard]] std::size_t count_convex_features(const Shape& A, const Shape& B);
-void meet_convex(const PlacedShape& A, const PlacedShape& B,
-                 std::span<Meeting> out);
-/// The distance; < 0 if they overlap [m].
-[[nodiscard]] double find_convex_clearance(const PlacedShape& A,
-                                           const PlacedShape& B);
 
 /// Features of two skins: the deepest places of their overlap that are
 /// distinct, the deepest first, at most this number (SkinPairSearch).
@@ -89,12 +72,12 @@ void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
 void take_what_pads_miss(const Shape& A, std::span<const Meeting> pads,
                          std::span<Meeting> others);
 
-/// B's features with a half space: their number, and each of them.
+/// Features of a skin B with a half space: its pads, or else its nodes.
 ///
-/// Equation   depth = -height of the feature's lowest point
-[[nodiscard]] std::size_t count_half_space_features(const Shape& B);
+/// Equation   depth = -height
+[[nodiscard]] std::size_t count_half_space_features(const Skin& B);
 /// Whether they are only the deepest of a larger number.
-[[nodiscard]] bool has_loose_features_on_plane(const Shape& B);
+[[nodiscard]] bool has_loose_features_on_plane(const Skin& B);
 void meet_half_space(const PlacedShape& A, const PlacedShape& B, double reach,
                      std::span<Meeting> out);
 /// The distance; < 0 if they overlap [m].

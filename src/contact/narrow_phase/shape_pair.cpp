@@ -28,6 +28,10 @@ bool is_skin(const Shape& shape) {
   return is_a<std::shared_ptr<const Skin>>(shape);
 }
 
+bool meets_spheres(const Shape& shape) {
+  return !is_a<Box>(shape) && !is_a<Cylinder>(shape);
+}
+
 double find_deepest(std::span<const Meeting> meetings) {
   double deepest = -kInfinity;
   for (const Meeting& meeting : meetings) {
@@ -44,24 +48,23 @@ ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
     : A_(A), B_(B) {
   check_shape(A_);
   check_shape(B_);
-  const bool is_sphere_B = is_a<Sphere>(B_);
-  if (is_a<Sphere>(A_) || is_sphere_B) {
+  if ((is_a<Sphere>(A_) && meets_spheres(B_)) ||
+      (is_a<Sphere>(B_) && meets_spheres(A_))) {
     rule_ = Rule::kSphere;
     is_swapped_ = !is_a<Sphere>(A_);
-  } else if (is_a<HalfSpace>(A_) != is_a<HalfSpace>(B_)) {
+  } else if ((is_a<HalfSpace>(A_) && is_skin(B_)) ||
+             (is_a<HalfSpace>(B_) && is_skin(A_))) {
     rule_ = Rule::kHalfSpace;
     is_swapped_ = is_a<HalfSpace>(B_);
-    most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
-    is_loose_ = has_loose_features_on_plane(is_swapped_ ? A_ : B_);
-    const Skin* flat = find_flat(is_swapped_ ? A_ : B_);
-    pad_count_ = flat != nullptr ? flat->pad_count() : 0;
+    const Skin& skin =
+        *std::get<std::shared_ptr<const Skin>>((is_swapped_ ? A_ : B_).kind);
+    most_points_ = count_half_space_features(skin);
+    is_loose_ = has_loose_features_on_plane(skin);
+    pad_count_ = skin.pad_count();
     has_pads_on_A_ = is_swapped_;
   } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
     rule_ = Rule::kCapsules;
-  } else if (is_convex(A_) && is_convex(B_)) {
-    rule_ = Rule::kConvex;
-    most_points_ = count_convex_features(A_, B_);
-  } else if (has_skin(A_) && has_skin(B_)) {
+  } else if ((is_skin(A_) && has_skin(B_)) || (is_skin(B_) && has_skin(A_))) {
     rule_ = Rule::kSkins;
     skin_A_ = make_skin(A_);
     skin_B_ = make_skin(B_);
@@ -74,10 +77,9 @@ ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
     }
     most_points_ = pad_count_ + unordered_count_;
   } else {
-    throw InputError(fmt::format(
-        "contact: there is no rule for a {} with a {}; all other shapes touch "
-        "each other",
-        name_kind(A_), name_kind(B_)));
+    throw InputError(
+        fmt::format("contact: a {} and a {} do not touch at points",
+                    name_kind(A_), name_kind(B_)));
   }
 }
 
@@ -97,9 +99,6 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
       break;
     case Rule::kCapsules:
       out[0] = meet_capsules(first, second);
-      break;
-    case Rule::kConvex:
-      meet_convex(first, second, out);
       break;
     case Rule::kFlat:
       meet_flat(first, second, bodies, reach, out);
@@ -171,9 +170,6 @@ double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
       break;
     case Rule::kCapsules:
       distance = -meet_capsules(first, second).depth;
-      break;
-    case Rule::kConvex:
-      distance = find_convex_clearance(first, second);
       break;
     case Rule::kFlat:
       distance = find_flat_clearance(first, second, bodies);

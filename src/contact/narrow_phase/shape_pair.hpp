@@ -17,23 +17,20 @@ namespace limber::contact {
 /// The number of features is fixed, for most pairs also their order, so that a
 /// feature keeps its identity from step to step:
 ///
-///     sphere with any other        1
+///     sphere with sphere, half
+///       space, capsule, skin       1
 ///     capsule with capsule         1
-///     of box, cylinder, capsule
-///       any other two              corners of both faces, where each edge of
-///                                  A enters and leaves B's, and the nearest
 ///     skin with skin, box,
 ///       cylinder, capsule          8, the deepest that are apart: these have
 ///                                  no order that lasts (ordered_count())
 ///     flat skin with flat skin,
 ///       box, cylinder              n, the pads of the smaller one, then 8 of
 ///                                  what these miss, as of any skin
-///     half space with capsule      2, its ends
-///                     box          8, its corners
-///                     cylinder     6, three of each rim
-///                     flat skin    n, its pads
+///     half space with flat skin    n, its pads
 ///                     skin         its nodes, or the 64 deepest of them in
 ///                                  no fixed order
+///
+/// All others have a potential (PatchPair).
 class ShapePair {
  public:
   /// @param with_pads whether flat skins use their pads also with other shapes
@@ -76,7 +73,7 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
-  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex, kFlat, kSkins };
+  enum class Rule { kSphere, kHalfSpace, kCapsules, kFlat, kSkins };
 
   void meet_flat(const PlacedShape& padded, const PlacedShape& face,
                  const joints::PairBodies& bodies, double reach,

@@ -35,54 +35,6 @@ NearestPoint find_nearest(const Capsule& shape, const Vector3& p) {
   return nearest;
 }
 
-NearestPoint find_nearest(const Cylinder& shape, const Vector3& p) {
-  const double side = std::hypot(p.x(), p.y());
-  const Vector3 radial =
-      side > 0.0 ? Vector3(p.x() / side, p.y() / side, 0.0) : Vector3::UnitX();
-  const Vector3 axial(0.0, 0.0, p.z() < 0.0 ? -1.0 : 1.0);
-  const double beyond_side = side - shape.radius;
-  const double beyond_end = std::abs(p.z()) - shape.half_length;
-  if (beyond_side > 0.0 && beyond_end > 0.0) {
-    const double distance = std::hypot(beyond_side, beyond_end);
-    return {.distance = distance,
-            .point = shape.radius * radial + shape.half_length * axial,
-            .normal = (beyond_side * radial + beyond_end * axial) / distance,
-            .curvature = 0.0};
-  }
-  if (beyond_side > beyond_end) {
-    return {.distance = beyond_side,
-            .point = p - beyond_side * radial,
-            .normal = radial,
-            .curvature = 0.5 / shape.radius};
-  }
-  return {.distance = beyond_end,
-          .point = p - beyond_end * axial,
-          .normal = axial,
-          .curvature = 0.0};
-}
-
-NearestPoint find_nearest(const Box& shape, const Vector3& p) {
-  const Vector3& h = shape.half_size;
-  const Vector3 beyond = p.cwiseAbs() - h;
-  if ((beyond.array() > 0.0).any()) {
-    const Vector3 point = p.cwiseMax(-h).cwiseMin(h);
-    const Vector3 arm = p - point;
-    const double distance = arm.norm();
-    return {.distance = distance,
-            .point = point,
-            .normal = arm / distance,
-            .curvature = 0.0};
-  }
-  int axis = 0;
-  const double distance = beyond.maxCoeff(&axis);
-  Vector3 normal = Vector3::Zero();
-  normal[axis] = p[axis] < 0.0 ? -1.0 : 1.0;
-  return {.distance = distance,
-          .point = p - distance * normal,
-          .normal = normal,
-          .curvature = 0.0};
-}
-
 NearestPoint find_nearest(const HalfSpace& /*shape*/, const Vector3& p) {
   return {.distance = p.z(),
           .point = Vector3(p.x(), p.y(), 0.0),

@@ -6,8 +6,8 @@
 
 namespace limber::contact {
 
-/// The point of a shape's surface that is nearest to a point p, all in the
-/// shape's frame.
+/// The point of a smooth shape's surface that is nearest to a point p, all in
+/// the shape's frame.
 struct NearestPoint {
   double distance = 0.0;             ///< of p, < 0 inside [m]
   Vector3 point = Vector3::Zero();   ///< [m]
@@ -19,9 +19,6 @@ struct NearestPoint {
 /// always the same.
 [[nodiscard]] NearestPoint find_nearest(const Sphere& shape, const Vector3& p);
 [[nodiscard]] NearestPoint find_nearest(const Capsule& shape, const Vector3& p);
-[[nodiscard]] NearestPoint find_nearest(const Cylinder& shape,
-                                        const Vector3& p);
-[[nodiscard]] NearestPoint find_nearest(const Box& shape, const Vector3& p);
 [[nodiscard]] NearestPoint find_nearest(const HalfSpace& shape,
                                         const Vector3& p);
 

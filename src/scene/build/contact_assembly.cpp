@@ -13,6 +13,7 @@
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/make_contact.hpp"
+#include "limber/contact/patch_sides.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
@@ -244,12 +245,19 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
                                const Side& B, std::vector<PlacedPair>& placed) {
   const ContactOptions& options =
       scene_.scenario.contacts[scene_.touching[touching].contact].options;
-  const std::string name = A.name + "/" + B.name;
-  contact::ShapePair shapes(A.side.shape, B.side.shape);
-  const dynamics::PairIndex pair = builder_.add_pair(
-      name, A.body, B.body,
-      contact::make_contact(A.side, B.side, make_parameters(options)));
-  placed.push_back({name, std::move(shapes), options.radius, touching, pair});
+  const contact::ContactParameters parameters = make_parameters(options);
+  PlacedPair pair{
+      .name = A.name + "/" + B.name,
+      .most_overlap = find_most_overlap(A.side, B.side, options.radius),
+      .radius = options.radius,
+      .touching = touching};
+  if (!contact::suits(A.side, B.side)) {
+    pair.points.emplace(A.side.shape, B.side.shape);
+  }
+  pair.pair =
+      builder_.add_pair(pair.name, A.body, B.body,
+                        contact::make_contact(A.side, B.side, parameters));
+  placed.push_back(std::move(pair));
 }
 
 }  // namespace limber::scene

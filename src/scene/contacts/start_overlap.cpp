@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <variant>
+
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/contact/meetings.hpp"
+#include "limber/contact/patch_moduli.hpp"
 #include "limber/contact/shape_measures.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/joints/pairs/touching.hpp"
@@ -20,35 +23,48 @@ constexpr double kMostShare = 0.03;  // of R_e [-]
 constexpr double kMostFlatShare = 0.01;
 constexpr std::size_t kMostTold = 10;
 
-double find_limit(const PlacedPair& pair, const contact::Meeting& meeting) {
-  if (pair.radius) return kMostShare * *pair.radius;
-  if (meeting.curvature > 0.0) return kMostShare / meeting.curvature;
-  return kMostFlatShare * contact::find_size(pair.shapes.A(), pair.shapes.B());
-}
+struct Overlap {
+  double depth = 0.0;  // [m]
+  Vector3 p_W = Vector3::Zero();
+  double most = 0.0;  // [m]
+};
 
-/// The deepest overlap of two shapes; none if they do not overlap.
-std::optional<contact::Meeting> find_overlap(const PlacedPair& pair,
-                                             const joints::PairBodies& bodies) {
-  contact::Meetings meetings(pair.shapes.most_points());
-  pair.shapes.find(bodies, 0.0, meetings.all());
+// The deepest one of two shapes that touch at points.
+Overlap find_overlap(const PlacedPair& pair, const contact::ShapePair& points,
+                     const joints::PairBodies& bodies) {
+  contact::Meetings meetings(points.most_points());
+  points.find(bodies, 0.0, meetings.all());
   const contact::Meeting& deepest = meetings[meetings.find_deepest()];
-  const contact::Meeting enclosed = pair.shapes.find_enclosed(bodies);
-  const bool is_found = deepest.depth > 0.0;
+  const contact::Meeting enclosed = points.find_enclosed(bodies);
+  double most = pair.most_overlap;
+  if (!pair.radius && deepest.curvature > 0.0) {
+    most = kMostShare / deepest.curvature;
+  }
   // Corners of a shallow overlap are found as well, less exactly.
-  const double limit = is_found ? find_limit(pair, deepest) : 0.0;
-  if (enclosed.depth > limit) return enclosed;
-  if (!is_found) return std::nullopt;
-  return deepest;
+  if (enclosed.depth > (deepest.depth > 0.0 ? most : 0.0)) {
+    return {enclosed.depth, enclosed.p_W, most};
+  }
+  return {deepest.depth, deepest.p_W, most};
 }
 
-std::string refuse(const PlacedPair& pair, const contact::Meeting& deepest,
-                   double limit) {
-  const Vector3& p = deepest.p_W;
+Overlap find_overlap(const PlacedPair& placed,
+                     const dynamics::SystemModel& model,
+                     const joints::PairBodies& bodies) {
+  if (placed.points) return find_overlap(placed, *placed.points, bodies);
+  const dynamics::Pair& pair = model.pairs[index(placed.pair)];
+  joints::PairResponse scratch = dynamics::make_response(model, pair);
+  const joints::PairTouch touch =
+      pair.law->touching()->find_touch(bodies, scratch);
+  return {touch.depth, touch.p_W, placed.most_overlap};
+}
+
+std::string refuse(const PlacedPair& pair, const Overlap& overlap) {
+  const Vector3& p = overlap.p_W;
   return fmt::format(
       "contact '{}': both overlap by {:.3g} m at the start, at ({:.4g}, "
       "{:.4g}, {:.4g}) m in the world; up to {:.2g} m is taken as touching "
       "there: move them apart, or leave this pair out",
-      pair.name, deepest.depth, p.x(), p.y(), p.z(), limit);
+      pair.name, overlap.depth, p.x(), p.y(), p.z(), overlap.most);
 }
 
 std::string tell(const PlacedPair& placed, double depth,
@@ -67,6 +83,18 @@ std::string tell(const PlacedPair& placed, double depth,
 
 }  // namespace
 
+double find_most_overlap(const contact::ContactSide& A,
+                         const contact::ContactSide& B,
+                         const std::optional<double>& radius) {
+  if (radius) return kMostShare * *radius;
+  const auto is_ball = [](const contact::ContactSide& side) {
+    return std::holds_alternative<contact::Sphere>(side.shape.kind);
+  };
+  return is_ball(A) || is_ball(B)
+             ? kMostShare * contact::find_touch_radius(A, B)
+             : kMostFlatShare * contact::find_size(A.shape, B.shape);
+}
+
 std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
                                         const dynamics::SystemModel& model,
                                         const dynamics::SystemState& state) {
@@ -76,13 +104,12 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
   for (const PlacedPair& pair : pairs) {
     const dynamics::PairMotion motion =
         dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
-    const auto deepest = find_overlap(pair, motion.bodies());
-    if (!deepest) continue;
-    const double limit = find_limit(pair, *deepest);
-    if (deepest->depth <= limit) {
-      notices.push_back(tell(pair, deepest->depth, model, motion.bodies()));
+    const Overlap overlap = find_overlap(pair, model, motion.bodies());
+    if (!(overlap.depth > 0.0)) continue;
+    if (overlap.depth <= overlap.most) {
+      notices.push_back(tell(pair, overlap.depth, model, motion.bodies()));
     } else if (++count <= kMostTold) {
-      problems.push_back(refuse(pair, *deepest, limit));
+      problems.push_back(refuse(pair, overlap));
     }
   }
   if (count > kMostTold) {

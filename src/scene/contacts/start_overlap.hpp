@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/contact/contact_side.hpp"
 #include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -15,15 +16,24 @@ namespace limber::scene {
 /// Two shapes on the bodies of a pair of a system.
 struct PlacedPair {
   std::string name;
-  contact::ShapePair shapes;
+  /// Largest overlap at the start; 3 % of R_e at a place with a curvature where
+  /// both touch at points [m].
+  double most_overlap = 0.0;
   std::optional<double> radius;  ///< R_e in place of that of the shapes [m]
   std::size_t touching = 0;      ///< index of the bodies into Scene::touching
-  dynamics::PairIndex pair;
+  dynamics::PairIndex pair = {};
+  /// Of shapes that touch at points.
+  std::optional<contact::ShapePair> points = {};
 };
 
-/// Refuses bodies that overlap at the start by more than 3 % of R_e, or where
-/// they are flat 1 % of the smaller shape's size (contact::find_size), since
-/// they would burst apart.
+/// 3 % of R_e with a ball, else 1 % of the smaller shape's size
+/// (contact::find_size) [m].
+[[nodiscard]] double find_most_overlap(const contact::ContactSide& A,
+                                       const contact::ContactSide& B,
+                                       const std::optional<double>& radius);
+
+/// Refuses bodies that overlap at the start by more than that, since they would
+/// burst apart.
 /// @returns a notice of each smaller overlap, with its initial
 /// force
 /// @throws InputError listing such pairs, with depth and place (10 at most).

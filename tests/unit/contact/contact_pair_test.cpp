@@ -309,10 +309,9 @@ TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
   const auto box = builder.add_rigid_body("box", {1.0, inertia});
   builder.add_pair(
       "floor/box", kWorld, box,
-      make_contact(
-          floor_side(),
-          ContactSide{Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0, inertia},
-          ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.5}));
+      make_contact(floor_side(),
+                   {Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0, inertia},
+                   {.friction = {.sliding = 0.3}, .restitution = 0.5}));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
   scene.state.bodies[0].p_WB.z() = 0.031;
@@ -335,12 +334,11 @@ TEST(ContactPair, LetsACylinderLeapOffItsRimAsRestitutionSays) {
   const auto rod = builder.add_rigid_body("rod", {mass, inertias});
   builder.add_pair(
       "table/rod", kWorld, rod,
-      make_contact(
-          ContactSide{Shape{Box{{0.5, 0.5, 0.1}},
-                            Pose{Matrix3::Identity(), {0.0, 0.0, -0.1}}},
-                      kSteel, kInfinity},
-          ContactSide{Shape{Cylinder{0.03, 0.05}, {}}, kSteel, mass, inertias},
-          ContactParameters{.restitution = 0.5}));
+      make_contact({Shape{Box{{0.5, 0.5, 0.1}},
+                          Pose{Matrix3::Identity(), {0.0, 0.0, -0.1}}},
+                    kSteel, kInfinity},
+                   {Shape{Cylinder{0.03, 0.05}, {}}, kSteel, mass, inertias},
+                   {.restitution = 0.5}));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
   dynamics::BodyState& body = scene.state.bodies[0];
@@ -377,10 +375,8 @@ Scene make_block_on_slope(double amplitude) {
   const auto block = builder.add_rigid_body("block", {mass, inertia});
   builder.add_pair(
       "floor/block", kWorld, block,
-      make_contact(
-          floor_side(),
-          ContactSide{Shape{Box{half}, {}}, kSteel, mass, inertia},
-          ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.1}));
+      make_contact(floor_side(), {Shape{Box{half}, {}}, kSteel, mass, inertia},
+                   {.friction = {.sliding = 0.3}, .restitution = 0.1}));
   builder.set_gravity(9.81 * Vector3(std::sin(slope), 0.0, -std::cos(slope)));
   if (amplitude > 0.0) {
     builder.add_load("shake", builder.attach_frame("middle", block, {}),

@@ -8,6 +8,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patch_sides.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -231,18 +232,16 @@ TEST(MeshPair, HoldsARingOnManyPartsSideBySide) {
 
 TEST(MeshPair, SuitsMeshesAndFlatSolids) {
   const ContactSide angle = make_side(make_angle());
-  EXPECT_TRUE(PatchPair::suits(angle, angle, {}));
-  EXPECT_TRUE(PatchPair::suits(make_plane(), angle, {}));
-  EXPECT_TRUE(PatchPair::suits(angle, make_table(), {}));
-  EXPECT_FALSE(PatchPair::suits(angle, angle, {.stiffness = 1e9}));
-  EXPECT_FALSE(PatchPair::suits(make_side(make_globe(100, 0.1)), angle, {}));
+  EXPECT_TRUE(suits(angle, angle));
+  EXPECT_TRUE(suits(make_plane(), angle));
+  EXPECT_TRUE(suits(angle, make_table()));
+  EXPECT_FALSE(suits(make_side(make_globe(100, 0.1)), angle));
   for (const ShapeKind& shape :
        {ShapeKind(Cylinder{0.03, 0.04}), ShapeKind(Capsule{0.02, 0.03}),
         ShapeKind(Sphere{0.04})}) {
-    EXPECT_TRUE(PatchPair::suits(angle, make_round(shape), {}));
-    EXPECT_TRUE(PatchPair::suits(make_round(shape), angle, {}));
-    EXPECT_FALSE(PatchPair::suits(make_side(make_globe(40, 0.1)),
-                                  make_round(shape), {}));
+    EXPECT_TRUE(suits(angle, make_round(shape)));
+    EXPECT_TRUE(suits(make_round(shape), angle));
+    EXPECT_FALSE(suits(make_side(make_globe(40, 0.1)), make_round(shape)));
   }
 }
 

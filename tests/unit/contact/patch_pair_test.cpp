@@ -8,8 +8,8 @@
 #include <memory>
 #include <numbers>
 
-#include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/contact/patch_sides.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -307,23 +307,17 @@ TEST(PatchPair, DoesNotDependOnNamesPlaceAndAxes) {
   }
 }
 
-TEST(PatchPair, SuitsSolidsWithAMaterialAndNoParametersOfAPoint) {
+TEST(PatchPair, SuitsSolidsOfWhichOneIsBounded) {
   const ContactSide box = Block{}.side();
   const ContactSide plane{Shape{HalfSpace{}, {}}, {}, kInfinity};
-  ContactSide bare = box;
-  bare.material.reset();
   const ContactSide ball{Shape{Sphere{0.1}, {}}, SurfaceMaterial{1e9, 0.3},
                          1.0};
-  EXPECT_TRUE(PatchPair::suits(plane, box, {}));
-  EXPECT_TRUE(PatchPair::suits(box, box, {}));
-  EXPECT_FALSE(PatchPair::suits(plane, bare, {}));
-  EXPECT_FALSE(PatchPair::suits(plane, plane, {}));
-  EXPECT_TRUE(PatchPair::suits(ball, box, {}));
-  EXPECT_TRUE(PatchPair::suits(ball, plane, {}));
-  EXPECT_TRUE(PatchPair::suits(ball, ball, {}));
-  EXPECT_FALSE(PatchPair::suits(plane, box, {.stiffness = 1e5}));
-  EXPECT_FALSE(PatchPair::suits(plane, box, {.radius = 0.1}));
-  EXPECT_FALSE(PatchPair::suits(plane, box, {.damping = 0.1}));
+  EXPECT_TRUE(suits(plane, box));
+  EXPECT_TRUE(suits(box, box));
+  EXPECT_FALSE(suits(plane, plane));
+  EXPECT_TRUE(suits(ball, box));
+  EXPECT_TRUE(suits(ball, plane));
+  EXPECT_TRUE(suits(ball, ball));
 }
 
 }  // namespace

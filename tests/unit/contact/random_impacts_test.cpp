@@ -73,12 +73,12 @@ Impact draw_impact(unsigned seed, bool strikes_with_ball) {
   const auto ball = builder.add_rigid_body("ball", {ball_mass, ball_inertia});
   const Shape struck = draw_shape(draw, kind, size);
   const int striker = static_cast<int>(draw.between(1.0, 4.0));
-  const auto contact = make_contact(
-      ContactSide{struck, soft, mass, inertia},
-      ContactSide{strikes_with_ball ? Shape{Sphere{radius}, {}}
-                                    : draw_shape(draw, striker, radius),
-                  soft, ball_mass, ball_inertia},
-      parameters);
+  const auto contact =
+      make_contact({struck, soft, mass, inertia},
+                   {strikes_with_ball ? Shape{Sphere{radius}, {}}
+                                      : draw_shape(draw, striker, radius),
+                    soft, ball_mass, ball_inertia},
+                   parameters);
   builder.add_pair("body/ball", body, ball, contact);
   out.model = builder.build();
   out.state = make_state(out.model);

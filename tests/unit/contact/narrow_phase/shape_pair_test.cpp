@@ -50,14 +50,14 @@ TEST(ShapePair, SpheresOverlapByTheSumOfTheirRadiiLessTheirDistance) {
 }
 
 TEST(ShapePair, PosesOfShapesOnTheirBodiesCount) {
-  const Pose X_BS{exp_rotation(Vector3(0, 0, 0.5 * M_PI)), {0, 0, 1}};
-  const ShapePair pair({Box{{2, 1, 1}}, X_BS}, {Sphere{0.5}, {}});
+  const Pose X_BS{exp_rotation(Vector3(0.5 * M_PI, 0, 0)), {0, 0, 1}};
+  const ShapePair pair({Capsule{1.0, 1.0}, X_BS}, {Sphere{0.5}, {}});
   const auto at = meet(pair, place({0, 0, 1}), place({0, 2.4, 2}));
   EXPECT_NEAR(at[0].depth, 0.1, 1e-15);
   EXPECT_LT((at[0].normal_W - Vector3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((at[0].on_A.x_B - Vector3(0, 2, 1)).norm(), 1e-15);
   EXPECT_LT((at[0].on_B.x_B - Vector3(0, -0.5, 0)).norm(), 1e-15);
-  EXPECT_DOUBLE_EQ(at[0].curvature, 2.0);
+  EXPECT_DOUBLE_EQ(at[0].curvature, 3.0);
 }
 
 TEST(ShapePair, ASphereInAHollowIsNoFlatterThanFlat) {
@@ -80,65 +80,6 @@ TEST(ShapePair, ASphereFarFromASkinIsFoundToBeFar) {
             -kInf);
   EXPECT_NEAR(meet(pair, place({0, 0, 0}), place({2, 0, 0}), 1.0)[0].depth,
               -0.9, 1e-15);
-}
-
-TEST(ShapePair, ABoxMeetsAHalfSpaceWithEachCorner) {
-  const ShapePair pair({HalfSpace{}, {}}, {Box{{1, 2, 3}}, {}});
-  const auto at = meet(pair, place({0, 0, 0.1}), place({0, 0, 3}));
-  ASSERT_EQ(at.size(), 8u);
-  int below = 0;
-  for (const Meeting& corner : at) {
-    const Vector3& x = corner.on_B.x_B;
-    EXPECT_EQ(x.cwiseAbs(), Vector3(1, 2, 3));
-    EXPECT_NEAR(corner.depth, 0.1 - (3.0 + x.z()), 1e-14);
-    EXPECT_EQ(corner.normal_W, Vector3(0, 0, 1));
-    below += corner.depth > 0.0 ? 1 : 0;
-  }
-  EXPECT_EQ(below, 4);
-}
-
-// Its height and tilt alone give the net force, whichever way it tilts.
-TEST(ShapePair, AStandingCylinderIsHeldTheSameWhicheverWayItTilts) {
-  const ShapePair pair({HalfSpace{}, {}}, {Cylinder{0.5, 1.0}, {}});
-  const auto find_load = [&pair](const Vector3& tilt) {
-    const Matrix3 R = exp_rotation(tilt);
-    Vector6 load = Vector6::Zero();  // moment, force at Bo; unit stiffness
-    for (const Meeting& m :
-         meet(pair, place({0, 0, 0}), place({0, 0, 0.9}, R))) {
-      if (!(m.depth > 0.0)) continue;
-      const Vector3 force = m.depth * m.normal_W;
-      load.head<3>() += (R * m.on_B.x_B).cross(force);
-      load.tail<3>() += force;
-    }
-    return load;
-  };
-  EXPECT_NEAR(find_load(Vector3::Zero())[5], 0.3, 1e-14);
-  EXPECT_LT(find_load(Vector3::Zero()).head<3>().norm(), 1e-14);
-  constexpr double kTilt = 1e-3;
-  const Vector6 first = find_load({kTilt, 0, 0});
-  // Three points of unit stiffness push back by 3/2 radius^2, the weight on
-  // them by its lever the other way.
-  EXPECT_NEAR(first[0], -(1.5 * 0.25 - 0.3) * kTilt, 1e-3 * kTilt);
-  for (double angle = 0.1; angle < 6.0; angle += 0.3) {
-    const Matrix3 turn = exp_rotation(Vector3(0, 0, angle));
-    const Vector6 load = find_load(turn * Vector3(kTilt, 0, 0));
-    EXPECT_LT((load.head<3>() - turn * first.head<3>()).norm(), 1e-15);
-    EXPECT_NEAR(load[5], first[5], 1e-15);
-  }
-}
-
-TEST(ShapePair, ALyingCylinderTouchesWithTheLowestPointOfEachRim) {
-  const ShapePair pair({HalfSpace{}, {}}, {Cylinder{0.5, 1.0}, {}});
-  std::vector<double> depths;
-  const Matrix3 R = exp_rotation(Vector3(0.5 * M_PI, 0, 0));
-  for (const Meeting& m :
-       meet(pair, place({0, 0, 0}), place({0, 0, 0.45}, R))) {
-    depths.push_back(m.depth);
-  }
-  std::sort(depths.rbegin(), depths.rend());
-  EXPECT_NEAR(depths[0], 0.05, 1e-15);
-  EXPECT_NEAR(depths[1], 0.05, 1e-15);
-  EXPECT_LT(depths[2], -0.6);
 }
 
 // More than it has room for: the deepest.
@@ -190,7 +131,9 @@ TEST(ShapePair, CapsulesWhoseAxesTouchHaveANormalToBoth) {
   }
 }
 
-TEST(ShapePair, TwoHalfSpacesAndBadSizesAreRefused) {
+TEST(ShapePair, ShapesWithAPotentialAndBadSizesAreRefused) {
+  EXPECT_THROW(ShapePair({Box{{1, 1, 1}}, {}}, {HalfSpace{}, {}}), InputError);
+  EXPECT_THROW(ShapePair({Box{{1, 1, 1}}, {}}, {Sphere{0.5}, {}}), InputError);
   EXPECT_THROW(ShapePair({HalfSpace{}, {}}, {HalfSpace{}, {}}), InputError);
   EXPECT_THROW(ShapePair({Sphere{-1.0}, {}}, {HalfSpace{}, {}}), InputError);
 }

@@ -201,13 +201,14 @@ TEST(SkinPair, OfABoxIsThatOfItsMesh) {
   const Shape ball = make_ball(0.3, 2);
   const Pose X{test::draw_rotation(*std::make_unique<std::mt19937>(5)),
                {0.1, 0.0, -0.2}};
-  const ShapePair pair(ball, {Box{{0.5, 0.4, 0.3}}, X});
-  const ShapePair sphere({Sphere{0.3}, {}}, {Box{{0.5, 0.4, 0.3}}, X});
+  const Vector3 half(0.5, 0.4, 0.3);
+  const ShapePair pair(ball, {Box{half}, X});
   std::mt19937 random(6);
   for (int trial = 0; trial < 30; ++trial) {
     const PairBody A = draw_body(random, test::draw_point(random, 0.9));
     const PairBody B = draw_body(random, Vector3::Zero());
-    const double depth = find_deepest(meet(sphere, A, B, kFar));
+    const Vector3 centre = (Pose{B.R_WB, B.p_WB} * X).inverse() * A.p_WB;
+    const double depth = 0.3 - test::find_nearest_of_box(half, centre).distance;
     if (depth > 0.05) continue;
     EXPECT_NEAR(find_deepest(meet(pair, A, B, kFar)), depth, 2e-4) << trial;
   }

@@ -76,48 +76,6 @@ Sampled sample_capsule() {
           }};
 }
 
-Sampled sample_cylinder() {
-  std::vector<std::pair<double, double>> profile;
-  for (int i = 0; i <= 40; ++i) {
-    for (const double side : {-1.0, 1.0}) {
-      profile.emplace_back(kRadius * i / 40, side * kHalf);
-    }
-  }
-  for (int i = 0; i <= 140; ++i) {
-    profile.emplace_back(kRadius, kHalf * (2.0 * i / 140 - 1.0));
-  }
-  return {[](const Vector3& p) {
-            return find_nearest(Cylinder{kRadius, kHalf}, p);
-          },
-          revolve(profile),
-          [](const Vector3& p) {
-            return std::hypot(p.x(), p.y()) < kRadius &&
-                   std::abs(p.z()) < kHalf;
-          }};
-}
-
-Sampled sample_box() {
-  const Vector3 h(0.3, 0.4, 0.6);
-  std::vector<Vector3> points;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i <= 80; ++i) {
-      for (int j = 0; j <= 80; ++j) {
-        for (const double side : {-1.0, 1.0}) {
-          Vector3 x;
-          x[axis] = side;
-          x[(axis + 1) % 3] = i / 40.0 - 1.0;
-          x[(axis + 2) % 3] = j / 40.0 - 1.0;
-          points.emplace_back(x.cwiseProduct(h));
-        }
-      }
-    }
-  }
-  return {[h](const Vector3& p) { return find_nearest(Box{h}, p); }, points,
-          [h](const Vector3& p) {
-            return (p.cwiseAbs().array() < h.array()).all();
-          }};
-}
-
 void expect_nearest_of_all(const Sampled& shape) {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
@@ -159,15 +117,11 @@ void expect_normal_is_slope(const Sampled& shape) {
 TEST(NearestPoint, IsTheNearestOfAllOfTheSurfaceAndItsSignTellsTheInside) {
   expect_nearest_of_all(sample_sphere());
   expect_nearest_of_all(sample_capsule());
-  expect_nearest_of_all(sample_cylinder());
-  expect_nearest_of_all(sample_box());
 }
 
 TEST(NearestPoint, NormalIsTheSlopeOfTheDistance) {
   expect_normal_is_slope(sample_sphere());
   expect_normal_is_slope(sample_capsule());
-  expect_normal_is_slope(sample_cylinder());
-  expect_normal_is_slope(sample_box());
 }
 
 TEST(NearestPoint, OfAHalfSpaceIsOnItsPlane) {
@@ -182,19 +136,12 @@ TEST(NearestPoint, MeanCurvatureIsHalfTheSumOfThePrincipalOnes) {
   EXPECT_DOUBLE_EQ(find_nearest(Sphere{0.5}, {1, 1, 1}).curvature, 2.0);
   EXPECT_DOUBLE_EQ(find_nearest(Capsule{0.5, 1.0}, {1, 1, 0.2}).curvature, 1.0);
   EXPECT_DOUBLE_EQ(find_nearest(Capsule{0.5, 1.0}, {0, 1, 2}).curvature, 2.0);
-  EXPECT_DOUBLE_EQ(find_nearest(Cylinder{0.5, 1.0}, {1, 1, 0}).curvature, 1.0);
-  EXPECT_DOUBLE_EQ(find_nearest(Cylinder{0.5, 1.0}, {0.1, 0, 2}).curvature,
-                   0.0);
-  EXPECT_DOUBLE_EQ(find_nearest(Box{{1, 1, 1}}, {0, 0, 2}).curvature, 0.0);
 }
 
 TEST(NearestPoint, OfACentreHasAUnitNormal) {
   for (const NearestPoint& at :
        {find_nearest(Sphere{0.5}, Vector3::Zero()),
-        find_nearest(Capsule{0.5, 1.0}, Vector3::Zero()),
-        find_nearest(Cylinder{0.5, 0.3}, Vector3::Zero()),
-        find_nearest(Cylinder{0.3, 0.5}, Vector3::Zero()),
-        find_nearest(Box{{1, 2, 3}}, Vector3::Zero())}) {
+        find_nearest(Capsule{0.5, 1.0}, Vector3::Zero())}) {
     EXPECT_DOUBLE_EQ(at.normal.norm(), 1.0);
     EXPECT_LT((at.point + at.distance * at.normal).norm(), 1e-15);
   }

@@ -195,4 +195,25 @@ Matrix3 draw_rotation(std::mt19937& random) {
   return exp_rotation(draw_point(random, 3.0));
 }
 
+NearestPoint find_nearest_of_box(const Vector3& h, const Vector3& p) {
+  const Vector3 beyond = p.cwiseAbs() - h;
+  if ((beyond.array() > 0.0).any()) {
+    const Vector3 point = p.cwiseMax(-h).cwiseMin(h);
+    const Vector3 arm = p - point;
+    const double distance = arm.norm();
+    return {.distance = distance,
+            .point = point,
+            .normal = arm / distance,
+            .curvature = 0.0};
+  }
+  int axis = 0;
+  const double distance = beyond.maxCoeff(&axis);
+  Vector3 normal = Vector3::Zero();
+  normal[axis] = p[axis] < 0.0 ? -1.0 : 1.0;
+  return {.distance = distance,
+          .point = p - distance * normal,
+          .normal = normal,
+          .curvature = 0.0};
+}
+
 }  // namespace limber::contact::test

@@ -226,8 +226,8 @@ TEST(ContactProbe, SlidingBallHasCoulombsFriction) {
   EXPECT_EQ(values[5], 1.0);
 }
 
-// A sliding box touches at four corners: friction is that of all of them.
-TEST(ContactProbe, SlidingBoxHasTheFrictionOfAllItsCorners) {
+// A face with 2 E* sqrt(S / pi) = 2.7e7 N/m touches for 0.43 ms.
+TEST(ContactProbe, SlidingBoxHasCoulombsFriction) {
   const SceneFolder folder;
   const auto values = simulate_probes(folder.build(
       "<link name='box'><inertial><mass value='2'/><inertia ixx='1' iyy='1' "
@@ -236,7 +236,7 @@ TEST(ContactProbe, SlidingBoxHasTheFrictionOfAllItsCorners) {
       time_table(2e-4, 1e-5) + kFloor +
           "[initial.base]\nposition = [0.0, 0.0, 0.09999]\nvelocity = [3.0, "
           "0.0, 0.0]\n[[contact]]\nbetween = ['box', 'floor']\nstiffness = "
-          "1e8\nfriction = 0.3\nrestitution = 1.0\n" +
+          "1e7\nfriction = 0.3\nrestitution = 1.0\n" +
           probe("normal_force", "floor", "box") +
           probe("friction_force", "floor", "box") +
           probe("force", "floor", "box")));
