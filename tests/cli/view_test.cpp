@@ -94,6 +94,7 @@ TEST(View, RefusesWhatIsNoResult) {
   run(place);
   expect_refused(place, "view o --with nothing",
                  HasSubstr("no such file or folder"));
+  expect_refused(place, "view o nothing", HasSubstr("no such file or folder"));
   expect_refused(place, "export o -o a.obj", HasSubstr(".glb"));
   expect_refused(place, "export o -o no/such/a.glb", HasSubstr("a.glb"));
   expect_refused(place, "export o -o a.glb --magnification 0",

@@ -267,6 +267,111 @@ async function checkPanel(tab) {
     () => window.limber.view.showLink(window.limber.view.bodies.links[0], true));
 }
 
+// Rigid links have no deformation; every map has colours of its own.
+async function checkColours(tab) {
+  const [bare, note] = await tab.evaluate(() => {
+    const { view } = window.limber;
+    view.setField(1);
+    view.draw();
+    const grey = view.bodies.moving.filter(({ material }) => material.color.getHex() === 0xb4b8bf);
+    return [
+      grey.map(({ modes }) => modes), document.getElementById('legend').textContent,
+    ];
+  });
+  assert.ok(bare.length > 0 && bare.every((modes) => modes === 0), `grey: ${bare}`);
+  assert.match(note, /grey: .*rigid/);
+  const pictures = [];
+  for (const map of ['viridis', 'cividis', 'turbo']) {
+    await tab.selectOption('#map', map);
+    pictures.push(await readPixels(tab));
+  }
+  assert.ok(countDifferent(pictures[0], pictures[1]) > 20, 'cividis is viridis');
+  assert.ok(countDifferent(pictures[0], pictures[2]) > 20, 'turbo is viridis');
+  await tab.selectOption('#map', 'viridis');
+  assert.equal(countDifferent(pictures[0], await readPixels(tab)), 0);
+  await tab.evaluate(() => window.limber.view.setField(0));
+}
+
+// Two results side by side, by key, and again in one place.
+async function checkBeside(tab) {
+  const together = await readPixels(tab);
+  await tab.keyboard.press('b');
+  assert.ok(countDifferent(together, await readPixels(tab)) > 20, 'nothing is beside');
+  const far = await tab.evaluate(() => {
+    const { view } = window.limber;
+    return view.ghosts[0].group.position.length() / view.box.size;
+  });
+  assert.ok(far > 0.3, `the other result is ${far} sizes away`);
+  await tab.keyboard.press('b');
+  assert.equal(countDifferent(together, await readPixels(tab)), 0, 'b cannot be undone');
+}
+
+// What the saved picture says; ink where the canvas has none.
+async function checkCaption(tab) {
+  await tab.evaluate(() => {
+    const { view, player } = window.limber;
+    view.setField(1);
+    view.setMagnification(100);
+    player.seek(0.04);
+  });
+  const { title, lines, legend } = await tab.evaluate(() => {
+    window.limber.view.draw();
+    return window.limber.makeCaption();
+  });
+  assert.equal(title, 'struck_finger');
+  assert.match(lines[0], /^t = 40 ms, deformation \u00d7 100$/);
+  assert.equal(legend.label, 'deformation');
+  const [file] = await Promise.all([tab.waitForEvent('download'), tab.keyboard.press('s')]);
+  const bytes = (await readFile(await file.path())).toString('base64');
+  const ink = await tab.evaluate(async (data) => {
+    const blob = await (await fetch(`data:image/png;base64,${data}`)).blob();
+    const picture = await createImageBitmap(blob);
+    const canvas = new OffscreenCanvas(picture.width, picture.height);
+    const context = canvas.getContext('2d');
+    context.drawImage(picture, 0, 0);
+    const countInk = (x, y, w, h) => {
+      const { data: rgba } = context.getImageData(x, y, w, h);
+      return rgba.filter((value, i) => i % 4 === 0 && value < 90).length;
+    };
+    return [countInk(0, 0, 200, 36), countInk(0, picture.height - 44, 300, 44)];
+  }, bytes);
+  assert.ok(ink.every((count) => count > 50), `title and time have ${ink} dark pixels`);
+  await tab.evaluate(() => {
+    window.limber.view.setField(0);
+    window.limber.view.setMagnification(1);
+  });
+}
+
+// By taps, as on a phone: nothing is wider than the screen, the panel is a sheet.
+async function checkPhone(browser, problems) {
+  const size = { width: 390, height: 844 };
+  const context = await browser.newContext({
+    viewport: size, offline: true, hasTouch: true, isMobile: true,
+  });
+  const tab = await context.newPage();
+  tab.on('pageerror', (error) => problems.push(String(error)));
+  await tab.goto(`file://${page}#plots&field=deformation`);
+  await tab.waitForFunction(() => window.limber?.view.isStale === false, null, { timeout: 60000 });
+  const wide = await tab.evaluate(
+    () => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  assert.equal(wide, 0, 'on a phone the page is wider than the screen');
+  const boxOf = (id) => tab.locator(id).boundingBox();
+  assert.equal(await boxOf('#panel'), null, 'the panel covers the picture');
+  const [canvas, plots, play] = [await boxOf('#canvas'), await boxOf('#plot-area'), await boxOf('#play')];
+  assert.ok(canvas.width === size.width && canvas.height > 200, `the canvas has ${canvas.height}`);
+  assert.ok(plots.y >= canvas.y + canvas.height - 1, 'plots are not below the picture');
+  assert.ok(play.y > 0.75 * size.height && play.height >= 40, 'play is out of reach');
+  await tab.tap('#panel-button');
+  const sheet = await boxOf('#panel');
+  assert.ok(sheet.y > 0.3 * size.height && sheet.y + sheet.height <= size.height + 1);
+  await shoot(tab, 'phone');
+  await tab.tap('#panel-button');
+  assert.equal(await boxOf('#panel'), null);
+  await tab.tap('#play');
+  assert.ok(await tab.evaluate(() => window.limber.player.isPlaying), 'a tap does not play');
+  await context.close();
+}
+
 // A load's arrow lives as long as the load: 10 ms.
 async function checkArrow(tab) {
   const lives = await tab.evaluate(() => {
@@ -370,6 +475,9 @@ async function main() {
     await checkDeformers(tab);
     await checkPicking(tab);
     await checkPanel(tab);
+    await checkColours(tab);
+    await checkBeside(tab);
+    await checkCaption(tab);
     await checkSlider(tab);
     await checkLabels(tab);
     await checkArrow(tab);
@@ -380,6 +488,7 @@ async function main() {
     const alone = await timeFrames(tab, false);
     const both = await timeFrames(tab, true);
     await takeViews(browser, problems);
+    await checkPhone(browser, problems);
     assert.deepEqual(problems, [], 'the page reports errors');
     console.log(
       `${count} positions within ${worst.toExponential(2)} m (stated ${stated.toExponential(2)} m); ` +

@@ -20,7 +20,7 @@ namespace limber::app {
 namespace {
 
 struct ViewOptions {
-  std::string results;
+  std::vector<std::string> results;  // the first is shown
   std::vector<std::string> ghosts;
   std::string out;
 };
@@ -63,14 +63,15 @@ void check_page(const std::filesystem::path& page,
 }
 
 void show(const ViewOptions& options) {
-  std::vector<std::filesystem::path> all = find_compared(options.results);
-  if (all.empty()) all.emplace_back(options.results);
-  for (const std::string& ghost : options.ghosts) all.emplace_back(ghost);
+  const std::string& shown = options.results.front();
+  std::vector<std::filesystem::path> all = find_compared(shown);
+  if (all.empty()) all.emplace_back(shown);
+  all.insert(all.end(), options.results.begin() + 1, options.results.end());
+  all.insert(all.end(), options.ghosts.begin(), options.ghosts.end());
   const std::vector<view::Recording> recordings = read_recordings(all);
   std::filesystem::path page = options.out;
   if (page.empty()) {
-    const std::filesystem::path given =
-        std::filesystem::absolute(options.results);
+    const std::filesystem::path given = std::filesystem::absolute(shown);
     const std::filesystem::path folder =
         std::filesystem::is_directory(given) ? given : given.parent_path();
     page = add_view_to(OutputFolder(folder), recordings);
@@ -88,8 +89,10 @@ void add_view(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "view", "Show results in a browser: one HTML file, without a network");
   command
-      ->add_option("results", options->results,
-                   "Folder of a run or of a comparison, or its results.h5")
+      ->add_option(
+          "results", options->results,
+          "Folder of a run or of a comparison, or its results.h5; more "
+          "of them are its ghosts, or side by side (b in the page)")
       ->required();
   command->add_option("--with", options->ghosts,
                       "Other results, shown as ghosts (may be repeated)");

@@ -1,11 +1,12 @@
 // The bodies of one result as meshes that a time moves.
 import * as THREE from 'three';
-import { colourOfLink } from './colours.js';
+import { colourOfLink, kBare } from './colours.js';
 import { Deformer } from './deform.js';
 import { Detail } from './detail.js';
 import { findSemiAxes } from './ellipsoid.js';
-import { kStressField, kVelocityField, makeMaterial } from './material.js';
+import { kDeformationField, kStressField, kVelocityField, makeMaterial } from './material.js';
 import { locate } from './motion.js';
+import { shorten } from './short_names.js';
 import { Stress, stressModesOf } from './stress.js';
 
 function makeSurface({ x, shapes, triangles }) {
@@ -63,6 +64,9 @@ function makeEllipsoid(body) {
   return new THREE.SphereGeometry(1, 48, 24).applyMatrix4(new THREE.Matrix4().makeBasis(x, y, z));
 }
 
+const hasField = ({ modes, stress }, field) =>
+  (field !== kDeformationField || modes > 0) && (field !== kStressField || Boolean(stress));
+
 const place = (object, p, q) => {
   object.position.set(...p);
   object.quaternion.set(q[1], q[2], q[3], q[0]);
@@ -88,6 +92,8 @@ export class Bodies {
     result.shapes
       .filter((shape) => shape.body < 0)
       .forEach((shape) => this.addFixed(shape, { shared: null, ghost, extent }));
+    const short = shorten(this.links.map(({ name }) => name));
+    this.links.forEach((link, i) => (link.short = short[i]));
   }
 
   addBody(body, b, { shared, ghost, start, extent }) {
@@ -145,14 +151,20 @@ export class Bodies {
     });
   }
 
-  /// The field that colours them; those without stress keep their own colour.
+  /// The field that colours them; those without it are grey.
+  /// @returns the names of those
   setField(field) {
-    for (const { material, stress } of this.moving) {
-      const shown = field === kStressField && !stress ? 0 : field;
+    const bare = this.moving.filter((item) => !hasField(item, field));
+    for (const item of this.moving) {
+      const { material, link } = item;
+      const isBare = bare.includes(item);
+      const shown = isBare ? 0 : field;
+      material.color.set(isBare ? kBare : link.colour);
       if (material.defines.LIMBER_FIELD === shown) continue;
       material.defines.LIMBER_FIELD = shown;
       material.needsUpdate = true;
     }
+    return bare.map(({ link }) => link.short);
   }
 
   /// Whether what is small on the screen is drawn by fewer triangles.

@@ -1,6 +1,6 @@
 // The page of `limber view`.
 import { kPresets } from './camera.js';
-import { format } from './colours.js';
+import { format, kMaps } from './colours.js';
 import { readResults } from './data.js';
 import { describeOffset, fillPanel } from './panel.js';
 import { describeNode, pickAt, traceNode, traceStress, watchPicks } from './pick.js';
@@ -27,12 +27,19 @@ const kKeys = [
   ['p', 'plots'],
   ['s r', 'save a picture, a film of the interval'],
   ['d', 'dark or light'],
+  ['b', 'other results beside the shown one, or as its ghosts'],
+  ['o', 'the panel'],
   ['click', 'a point of a surface: its node, displacement and stress'],
 ];
 
 function setDark(isDark, view) {
   document.documentElement.classList.toggle('dark', isDark);
   view?.setDark(isDark);
+}
+
+function togglePanel() {
+  document.body.classList.toggle('panel-toggled');
+  find('panel-button').classList.toggle('on');
 }
 
 function togglePlots(view) {
@@ -46,8 +53,28 @@ function togglePlots(view) {
   view.tell('plots');
 }
 
-async function savePicture(view, name) {
-  save(await takePicture(find('canvas'), () => view.draw()), `${name}.png`);
+// What the saved picture says beside what it shows.
+function makeCaption(view, player, name) {
+  const style = getComputedStyle(document.documentElement);
+  const { magnification } = view;
+  const ghosts = view.ghosts.filter((ghost) => ghost.group.visible).map((ghost) => ghost.label);
+  return {
+    title: name,
+    legend: view.legend,
+    lines: [
+      `t = ${format(player.time, 's')}` +
+        (magnification === 1 ? '' : `, deformation \u00d7 ${Number(magnification.toPrecision(3))}`),
+      ...(ghosts.length > 0 ? [`${view.isBeside ? 'beside it' : 'ghosts'}: ${ghosts.join(', ')}`] : []),
+    ],
+    style: { back: style.getPropertyValue('--back'), ink: style.getPropertyValue('--ink') },
+    scale: view.renderer.getPixelRatio(),
+  };
+}
+
+async function savePicture(view, player, name) {
+  const picture = await takePicture(
+    find('canvas'), () => view.draw(), () => makeCaption(view, player, name));
+  save(picture, `${name}.png`);
 }
 
 async function saveFilm(view, player, name) {
@@ -93,9 +120,11 @@ function makeActions(view, player, name) {
       view.redraw();
     },
     p: () => togglePlots(view),
-    s: () => savePicture(view, name),
+    s: () => savePicture(view, player, name),
     r: () => saveFilm(view, player, name),
     d: () => setDark(!isDark(), view),
+    b: () => view.setBeside(!view.isBeside),
+    o: () => togglePanel(),
     '?': () => find('help').showModal(),
     ...Object.fromEntries(
       kPresets.map((preset, i) => [
@@ -111,6 +140,7 @@ function makeActions(view, player, name) {
 
 function connectButtons(actions) {
   const empty = {};
+  find('panel-button').onclick = () => actions.o();
   find('plots-button').onclick = () => actions.p();
   find('picture').onclick = () => actions.s();
   find('film').onclick = () => actions.r();
@@ -179,7 +209,8 @@ function showPick(view, player, pick) {
   return view.redraw();
 }
 
-// #peak, #t=0.01, #magnification=100, #field=deformation, #dark, #plots; joined by &.
+// #peak, #t=0.01, #magnification=100, #field=deformation, #map=cividis, #beside, #dark,
+// #plots; joined by &.
 function readHash(view, player) {
   const wishes = new URLSearchParams(location.hash.slice(1));
   if (wishes.has('peak')) player.seek(view.ranges.peak);
@@ -187,6 +218,8 @@ function readHash(view, player) {
   if (wishes.has('magnification')) view.setMagnification(Number(wishes.get('magnification')));
   const field = view.fields.find(({ name }) => name === wishes.get('field'));
   if (field) view.setField(field.index);
+  if (wishes.get('map') in kMaps) view.setMap(wishes.get('map'));
+  if (wishes.has('beside')) view.setBeside(true);
   if (wishes.has('dark')) setDark(true, view);
   if (wishes.has('plots') && view.probeGroups.length > 0) togglePlots(view);
 }
@@ -227,7 +260,7 @@ async function start() {
   // For tests, and for consoles.
   window.limber = {
     results, player, view, actions, pickAt: (x, y) => pickAt(x, y, view.camera.eye, view.bodies),
-    traceStress,
+    traceStress, makeCaption: () => makeCaption(view, player, result.name),
   };
 }
 

@@ -1,6 +1,6 @@
 // Couplers, tendons, loads and contacts.
 import * as THREE from 'three';
-import { turbo } from './colours.js';
+import { sampleMap } from './colours.js';
 import { factorAt, locate, rotate } from './motion.js';
 
 const kColours = {
@@ -20,6 +20,14 @@ function makeArrow(colour) {
   arrow.add(new THREE.Mesh(shaft, material), new THREE.Mesh(tip, material));
   for (const part of arrow.children) part.renderOrder = 2;
   return arrow;
+}
+
+function makeDot(colour, radius) {
+  const dot = new THREE.Mesh(
+    new THREE.SphereGeometry(radius, 16, 8),
+    new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+  dot.renderOrder = 2;
+  return dot;
 }
 
 // A moment: an arrow with two tips.
@@ -78,6 +86,7 @@ export class Marks {
   constructor(result, motion, size) {
     this.motion = motion;
     this.size = size;
+    this.map = 'viridis'; // of pressures
     this.couplers = new THREE.Group();
     this.loads = new THREE.Group();
     this.contacts = new THREE.Group();
@@ -142,16 +151,19 @@ export class Marks {
       const arrow = makeArrow(kColours.contact);
       const friction = makeArrow(kColours.stick);
       const area = makePatch();
-      this.contacts.add(area, arrow, friction);
-      return { touch, patch, arrow, friction, area, scale: most > 0 ? 1 / most : 0 };
+      const dot = makeDot(kColours.contact, 0.005 * this.size);
+      this.contacts.add(area, arrow, friction, dot);
+      return { touch, patch, arrow, friction, area, dot, scale: most > 0 ? 1 / most : 0 };
     });
   }
 
-  updateContact({ touch, patch, arrow, friction, area, scale }, i, home) {
+  updateContact({ touch, patch, arrow, friction, area, dot, scale }, i, home) {
     const row = touch.subarray(kTouch * i, kTouch * (i + 1));
     const force = row.subarray(3);
     const place = home.map((value, c) => value + row[c]);
     aim(arrow, place, force, this.length(scale * Math.hypot(...force)), false);
+    dot.visible = arrow.visible;
+    dot.position.set(...place);
     const numbers = patch.subarray(kPatch * i, kPatch * (i + 1));
     const pressure = pressureOf(touch, patch, i);
     area.visible = pressure > 0 && Number.isFinite(pressure);
@@ -160,7 +172,7 @@ export class Marks {
       const v = new THREE.Vector3(...numbers.subarray(3, 6));
       const n = new THREE.Vector3().crossVectors(u, v).normalize();
       area.matrix.makeBasis(u, v, n).setPosition(...place);
-      const colour = turbo(pressure / this.mostPressure).map((c) => c / 255);
+      const colour = sampleMap(this.map, pressure / this.mostPressure).map((c) => c / 255);
       area.material.color.setRGB(...colour, THREE.SRGBColorSpace);
     }
     const along = numbers.subarray(6, 9);

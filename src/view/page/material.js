@@ -3,18 +3,23 @@
 // renderer by the processor also computes what a shader's branch leaves out.
 import * as THREE from 'three';
 
-/// The field that needs modal velocities, and that which only results with stress
+/// The field that rigid links lack, that which needs modal velocities, and that which only results with stress
 /// have.
+export const kDeformationField = 1;
 export const kVelocityField = 3;
 export const kStressField = 4;
 
-/// Fields by which surfaces are coloured; `index` is that of the shader.
+/// Fields by which surfaces are coloured; `index` is that of the shader, `without`
+/// says why a link may lack it.
 export const kFields = [
   { name: 'none', label: 'by link', unit: '', index: 0 },
-  { name: 'deformation', label: 'deformation', unit: 'm', index: 1 },
-  { name: 'displacement', label: 'displacement from the start', unit: 'm', index: 2 },
+  { name: 'deformation', label: 'deformation', unit: 'm', index: 1, without: 'rigid' },
+  { name: 'displacement', label: 'displacement', unit: 'm', index: 2 },
   { name: 'velocity', label: 'velocity', unit: 'm/s', index: kVelocityField },
-  { name: 'von_mises', label: 'von Mises stress', unit: 'Pa', index: kStressField },
+  {
+    name: 'von_mises', label: 'von Mises stress', unit: 'Pa', index: kStressField,
+    without: 'stress not computed',
+  },
 ];
 
 const kDeclarations = /* glsl */ `

@@ -9,7 +9,7 @@ export class Names {
     this.isShown = false;
     this.items = links.map((link) => {
       const label = document.createElement('span');
-      label.textContent = link.name;
+      label.textContent = link.short;
       element.append(label);
       return { link, label };
     });

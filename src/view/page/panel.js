@@ -1,5 +1,5 @@
 // The panel beside the picture: deformation, colours, links, probes, ghosts.
-import { colourOfGhost, format, toText } from './colours.js';
+import { colourOfGhost, format, kMaps, toText } from './colours.js';
 
 function make(tag, properties = {}, children = []) {
   const element = Object.assign(document.createElement(tag), properties);
@@ -37,9 +37,17 @@ function colourSection(view) {
   select.onchange = () => view.setField(Number(select.value));
   const each = make('input', { type: 'checkbox' });
   each.onchange = () => view.setScalePerFrame(each.checked);
-  view.onField(() => (select.value = view.field));
+  const map = make('select', { id: 'map', title: 'Colour map' }, Object.keys(kMaps).map((name) =>
+    make('option', { value: name, textContent: name })));
+  map.onchange = () => view.setMap(map.value);
+  view.onField(() => {
+    select.value = view.field;
+    map.value = view.map;
+  });
+  map.value = view.map;
   return section('Colour', [
     select,
+    make('label', { className: 'row' }, ['map ', map]),
     make('label', { className: 'row' }, [each, ' scale of each moment']),
   ]);
 }
@@ -47,7 +55,7 @@ function colourSection(view) {
 function linkRow(view, link) {
   const show = make('input', { type: 'checkbox', checked: true, title: 'show' });
   show.onchange = () => view.showLink(link, show.checked);
-  const name = make('button', { className: 'name', textContent: link.name, title: `${link.name} (${link.level}): follow with the camera` });
+  const name = make('button', { className: 'name', textContent: link.short, title: `${link.name} (${link.level}): follow with the camera` });
   name.onclick = () => view.follow(view.followed === link ? null : link);
   const only = make('button', { textContent: '\u25ce', title: 'show it alone, or all again' });
   only.onclick = () => view.isolate(link);
@@ -84,7 +92,7 @@ function marksSection(view) {
     if (marks.mostPressure > 0) {
       rows.push(make('p', {
         className: 'hint',
-        textContent: `mean pressure in the ellipses, red: ${format(marks.mostPressure, 'Pa')}; ` +
+        textContent: `mean pressure in the ellipses, at most ${format(marks.mostPressure, 'Pa')}; ` +
           'friction blue: sticks, red: slips',
       }));
     }
@@ -94,7 +102,10 @@ function marksSection(view) {
 
 function ghostSection(view) {
   if (view.ghosts.length === 0) return [];
-  return [section('Ghosts', view.ghosts.map((ghost, g) => {
+  const beside = make('input', { type: 'checkbox', id: 'beside' });
+  beside.onchange = () => view.setBeside(beside.checked);
+  view.onLinks(() => (beside.checked = view.isBeside));
+  const rows = view.ghosts.map((ghost, g) => {
     const box = make('input', { type: 'checkbox', checked: true });
     box.onchange = () => {
       ghost.group.visible = box.checked;
@@ -103,7 +114,10 @@ function ghostSection(view) {
     const mark = make('i', { className: 'mark' });
     mark.style.background = toText(colourOfGhost(g));
     return make('label', { className: 'row' }, [box, mark, ` ${ghost.label}`]);
-  }))];
+  });
+  return [section('Other results', [
+    ...rows, make('label', { className: 'row' }, [beside, ' side by side']),
+  ])];
 }
 
 function probeSection(view) {

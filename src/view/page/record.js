@@ -1,4 +1,5 @@
 // Pictures and films of the canvas.
+import { addCaption } from './caption.js';
 
 // A film without any frame is not larger [bytes].
 const kHeaderOnly = 1000;
@@ -11,10 +12,11 @@ export function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/// @param draw draws the canvas now, so that it still holds the picture
-export function takePicture(canvas, draw) {
+/// With its caption. @param draw draws the canvas now, so that it still holds the picture
+export function takePicture(canvas, draw, caption) {
   draw();
-  return new Promise((done) => canvas.toBlob(done, 'image/png'));
+  const picture = addCaption(canvas, caption());
+  return new Promise((done) => picture.toBlob(done, 'image/png'));
 }
 
 /// Plays the interval once and records it.

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { Bodies } from './bodies.js';
 import { Camera } from './camera.js';
-import { colourOfGhost, makeMap, showLegend } from './colours.js';
+import { colourOfGhost, fillMap, makeLegend, makeMap, showLegend } from './colours.js';
 import { findBox, findRanges, findRangesAt } from './extents.js';
 import { hasStress } from './stress.js';
 import { Marks } from './marks.js';
@@ -44,10 +44,15 @@ export class View {
     this.fields = kFields.filter(
       (field) => field.index !== kStressField || hasStress(this.motion.result));
     this.field = 0;
+    this.bare = []; // names of links without the field
     this.scalePerFrame = false;
     this.listeners = { magnification: [], field: [], links: [], plots: [] };
-    this.shared = makeSharedUniforms(makeMap());
+    this.colourMap = makeMap();
+    this.shared = makeSharedUniforms(this.colourMap);
+    this.box = { ...box };
+    this.isBeside = false;
     this.makeScene(results, box);
+    this.setMap('viridis');
     this.setProcessor(isSoftware());
     this.setDetail(this.isProcessor);
     this.makeRenderer();
@@ -152,7 +157,37 @@ export class View {
 
   setField(field) {
     this.field = field;
-    this.bodies.setField(field);
+    this.bare = this.bodies.setField(field);
+    this.tell('field');
+  }
+
+  /// Whether other results are beside the shown one, across the picture as it is now,
+  /// rather than in its place.
+  setBeside(isSo) {
+    this.isBeside = isSo && this.ghosts.length > 0;
+    this.camera.eye.updateMatrixWorld();
+    const across = new THREE.Vector3().setFromMatrixColumn(this.camera.eye.matrixWorld, 0);
+    const { lower, upper } = this.box;
+    const width = upper.reduce((sum, u, c) => sum + Math.abs(across.getComponent(c)) * (u - lower[c]), 0);
+    this.ghosts.forEach((ghost, g) => {
+      ghost.group.position.copy(across).multiplyScalar(this.isBeside ? 1.1 * width * (g + 1) : 0);
+    });
+    const corners = [lower, upper].flatMap((corner) => [{ x: 0, y: 0, z: 0 },
+      ...this.ghosts.map(({ group }) => group.position)].map(
+      ({ x, y, z }) => [corner[0] + x, corner[1] + y, corner[2] + z]));
+    const box = {
+      lower: [0, 1, 2].map((c) => Math.min(...corners.map((corner) => corner[c]))),
+      upper: [0, 1, 2].map((c) => Math.max(...corners.map((corner) => corner[c]))),
+    };
+    Object.assign(this.camera.box, box);
+    this.camera.frame();
+    this.tell('links');
+  }
+
+  /// @param name of kMaps
+  setMap(name) {
+    this.map = this.marks.map = name;
+    fillMap(this.colourMap, name);
     this.tell('field');
   }
 
@@ -215,8 +250,12 @@ export class View {
     this.shared.limberMagnification.value = this.magnification;
     const most = this.findMost();
     this.shared.limberRange.value.set(0, most > 0 ? most : 1);
-    const note = this.scalePerFrame ? 'of this moment' : 'of the whole run';
-    showLegend(this.elements.legend, this.field, most, note);
+    const scope = this.scalePerFrame ? 'of this moment' : 'of the whole run';
+    this.legend = makeLegend(this.field, most, scope, this.map, this.bare);
+    const text = JSON.stringify(this.legend);
+    if (text === this.legendText) return;
+    this.legendText = text;
+    showLegend(this.elements.legend, this.legend);
   }
 
   draw() {
