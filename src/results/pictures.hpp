@@ -13,9 +13,9 @@
 #include "limber/results/history.hpp"
 #include "limber/results/scenery.hpp"
 
-/// PNG pictures by gnuplot. Without gnuplot the results are complete except for
-/// pictures. Each function returns an empty string, or why there is no picture
-/// (such as what to install).
+/// PNG pictures: curves by gnuplot, without which they are missing, and scenes
+/// by a rasteriser of our own (results/drawing/). Each function returns an empty
+/// string, or why there is no picture (such as what to install).
 namespace limber::results {
 
 /// One named curve over time.

@@ -29,15 +29,15 @@ struct DeformationPeak {
 /// @param deformation, size of the picture [m]
 [[nodiscard]] double find_magnification(double deformation, double size);
 
-/// Angles of gnuplot's `set view` [degrees].
+/// From where a scene is seen [degrees].
 struct ViewAngles {
-  double rot_x = 60.0;
-  double rot_z = 30.0;
+  double rot_x = 60.0;  ///< of the eye from the vertical
+  double rot_z = 30.0;  ///< of what is right for it, from x towards y
 };
 
 /// The unit vector from the scene to the eye at these angles.
 ///
-/// Equation   (sin x sin z, -sin x cos z, cos x), which gnuplot looks from
+/// Equation   (sin x sin z, -sin x cos z, cos x)
 [[nodiscard]] Vector3 find_eye(const ViewAngles& view);
 
 /// From the side of a motion: nearly along the direction in which points move

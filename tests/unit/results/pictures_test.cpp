@@ -390,13 +390,28 @@ TEST(PicturesWithoutGnuplot, SayWhatToInstallAndLeaveNothing) {
   const Path path(empty.path().string());
   const std::filesystem::path file = folder.path() / "picture.png";
   const Panel panel{"u [m]", {make_series("a", wave(50))}};
-  for (const std::string& why :
-       {draw_overlay(file, "tip", {panel}), draw_energy(file, "t", run.history),
-        draw_scene(file, "run", run.model, run.history, {})}) {
+  for (const std::string& why : {draw_overlay(file, "tip", {panel}),
+                                 draw_energy(file, "t", run.history)}) {
     EXPECT_THAT(why, HasSubstr("gnuplot is not installed"));
     EXPECT_THAT(why, HasSubstr("gnuplot-nox"));
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(PicturesWithoutGnuplot, HaveScenes) {
+  const SmallRun run = make_small_run();
+  const TemporaryFolder empty;
+  const Path path(empty.path().string());
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "run", run.model, run.history, {});
+  }));
+}
+
+TEST(Scenes, SayThatTheirFileCannotBeWritten) {
+  const SmallRun run = make_small_run();
+  EXPECT_THAT(
+      draw_scene("/no/such/scene.png", "run", run.model, run.history, {}),
+      HasSubstr("'/no/such/scene.png' cannot be written"));
 }
 
 // More text than a pipe holds (64 KiB): writing continues after the shell

@@ -30,7 +30,6 @@ TEST(Magnification, MakesSmallDeformationsVisible) {
   }
 }
 
-// gnuplot turns first about z, then about the picture's x.
 TEST(View, IsSeenAlongTheDirectionThatTurnsTowardsTheEye) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   for (const double x : {20.0, 60.0, 75.0}) {
