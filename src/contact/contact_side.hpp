@@ -23,8 +23,11 @@ struct ContactSide {
   /// Of the body, about Bo, its centre of mass; zero of the world, and of
   /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
   Matrix3 inertia_B = Matrix3::Zero();
-  /// Convex parts of a rigid mesh, in its frame; none of others.
+  /// Convex parts of a rigid mesh or of a flexible surface with slices, in its
+  /// frame; none of others.
   std::vector<ConvexSolid> solids = {};
+  /// Of a flexible surface the slice of each solid.
+  std::vector<std::size_t> slices = {};
 };
 
 /// Both sides and the law between them: all that forces depend on.

@@ -5,7 +5,7 @@ namespace limber::contact {
 
 SideFrames::SideFrames(const std::vector<PatchPart>& parts,
                        const joints::PairBody& body)
-    : parts_(parts), is_shared_(parts.size() > flexbody::kMostParts) {
+    : parts_(parts), is_shared_(!parts.front().has_own_frame()) {
   const std::size_t count = is_shared_ ? 1 : parts.size();
   for (std::size_t i = 0; i < count; ++i) {
     frames_.add() = parts[i].find_motion(body);

@@ -8,12 +8,13 @@
 #include "limber/common/stack_array.hpp"
 #include "limber/contact/patch_part.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
+#include "limber/contact/skin_solids.hpp"
 
 /// Where the parts of both sides of a pair are, and which may touch.
 namespace limber::contact {
 
 /// The frames of all parts of one side: of a rigid mesh all the same, of a
-/// flexible surface one each, up to flexbody::kMostParts.
+/// flexible surface one each, up to kMostSkinSolids.
 class SideFrames {
  public:
   SideFrames(const std::vector<PatchPart>& parts, const joints::PairBody& body);
@@ -36,7 +37,7 @@ class SideFrames {
  private:
   const std::vector<PatchPart>& parts_;
   bool is_shared_;
-  StackArray<joints::PairBody, flexbody::kMostParts> frames_;
+  StackArray<joints::PairBody, kMostSkinSolids> frames_;
 };
 
 /// The frames of all parts of both sides.

@@ -64,7 +64,7 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       moduli_(find_patch_moduli(A_, B_, parameters)),
       parts_A_(make_parts(A_)),
       parts_B_(make_parts(B_)),
-      potentials_(make_potentials(A_, parts_A_, B_, parts_B_, moduli_.normal)),
+      potentials_(make_potentials(parts_A_, parts_B_, moduli_.normal)),
       size_(contact::find_size(A_.shape, B_.shape)),
       law_(parameters, moduli_,
            !potentials_.empty() && potentials_.front().is_point(), size_) {

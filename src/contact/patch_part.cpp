@@ -22,16 +22,6 @@ Matrix3X find_corners(const flexbody::ContactPart& part, const Pose& X_PS) {
   return X_PS.R.transpose() * (part.corners_B.colwise() - part.centre_B);
 }
 
-double find_area(const flexbody::ContactPart& part) {
-  Vector3 twice = Vector3::Zero();
-  const Vector3 first = part.corners_B.col(0);
-  for (Eigen::Index i = 1; i + 1 < part.corners_B.cols(); ++i) {
-    twice += (Vector3(part.corners_B.col(i)) - first)
-                 .cross(Vector3(part.corners_B.col(i + 1)) - first);
-  }
-  return 0.5 * twice.norm();
-}
-
 }  // namespace
 
 PatchPart::PatchPart(const Shape& shape)
@@ -43,16 +33,22 @@ PatchPart::PatchPart(const ConvexSolid& solid, const Pose& X_PS)
     : ball_{X_PS * solid.ball().centre, solid.ball().radius},
       body_{solid, X_PS} {}
 
-PatchPart::PatchPart(const flexbody::ContactPart& part)
+PatchPart::PatchPart(const flexbody::ContactPart& part, double flexibility)
     : PatchPart(
           ConvexSolid::make_slab(find_corners(part, find_frame(part.normal_B)),
                                  part.rim, part.depth),
           find_frame(part.normal_B)) {
   centre_B_ = part.centre_B;
   motion_B_ = part.motion_B;
-  area_ = find_area(part);
-  residual_ = part.residual;
-  flexibility_ = part.flexibility;
+  flexibility_ = flexibility * part.normal_B * part.normal_B.transpose();
+}
+
+PatchPart::PatchPart(const flexbody::ContactSlice& slice,
+                     const ConvexSolid& solid)
+    : PatchPart(solid, Pose{Matrix3::Identity(), -slice.centre_B}) {
+  centre_B_ = slice.centre_B;
+  motion_B_ = slice.motion_B;
+  flexibility_ = slice.flexibility_B;
 }
 
 void PatchPart::check(int modes) const {

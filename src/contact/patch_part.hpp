@@ -10,7 +10,7 @@
 namespace limber::contact {
 
 /// A convex body of one side of a contact, in a frame P of its own: that of its
-/// body, or of the part of a flexible surface that moves as one piece.
+/// body, or of the part or slice of a flexible surface that moves as one piece.
 /// Immutable.
 ///
 /// Equation   p_P = p_B + R_B (c + u), R_P = R_B exp(theta), (u, theta) =
@@ -19,7 +19,10 @@ class PatchPart {
  public:
   explicit PatchPart(const Shape& shape);
   PatchPart(const ConvexSolid& solid, const Pose& X_PS);
-  explicit PatchPart(const flexbody::ContactPart& part);
+  /// @param flexibility of the layer under its face, along the normal [m/N]
+  PatchPart(const flexbody::ContactPart& part, double flexibility);
+  /// @param solid what lies within the slice, in the body's frame
+  PatchPart(const flexbody::ContactSlice& slice, const ConvexSolid& solid);
 
   /// About it, in P; of a half space the radius is infinite.
   [[nodiscard]] const ConvexSolid::Ball& ball() const { return ball_; }
@@ -31,13 +34,14 @@ class PatchPart {
   }
   /// In P; of parts of surfaces and meshes nothing.
   [[nodiscard]] const std::optional<Shape>& shape() const { return shape_; }
-  /// Of a flexible part along its normal, the z axis of S; 0 of others [m/N].
-  [[nodiscard]] double residual() const { return residual_; }
-  [[nodiscard]] double flexibility() const { return flexibility_; }
+  /// Of the layer under a flexible part's faces, in P; 0 of others [m/N].
+  [[nodiscard]] const Matrix3& flexibility() const { return flexibility_; }
 
   [[nodiscard]] bool is_flexible() const { return motion_B_.cols() > 0; }
-  /// Of a flexible part [m^2].
-  [[nodiscard]] double area() const { return area_; }
+  /// Whether P is not the frame of the body.
+  [[nodiscard]] bool has_own_frame() const {
+    return is_flexible() || !centre_B_.isZero(0.0);
+  }
 
   /// P as a body without modes. @param body with the part's modes; at rest in
   /// them without etadot
@@ -58,9 +62,7 @@ class PatchPart {
   std::optional<Shape> shape_;
   Vector3 centre_B_ = Vector3::Zero();
   MatrixX motion_B_ = MatrixX(6, 0);
-  double area_ = 0.0;
-  double residual_ = 0.0;
-  double flexibility_ = 0.0;
+  Matrix3 flexibility_ = Matrix3::Zero();
 };
 
 }  // namespace limber::contact

@@ -26,18 +26,32 @@ const Skin* find_skin(const ContactSide& side) {
   return find_skin(side.shape.kind);
 }
 
+double find_area(const flexbody::ContactPart& part) {
+  Vector3 twice = Vector3::Zero();
+  const Vector3 first = part.corners_B.col(0);
+  for (Eigen::Index i = 1; i + 1 < part.corners_B.cols(); ++i) {
+    twice += (Vector3(part.corners_B.col(i)) - first)
+                 .cross(Vector3(part.corners_B.col(i + 1)) - first);
+  }
+  return 0.5 * twice.norm();
+}
+
 // R, and what 2 R_res has above the compliance of the own half space, 1 / (2 E'
-// a), E' = E / (1 - nu^2) [m/N].
-double find_flexibility(const PatchPart& part,
+// a), E' = E / (1 - nu^2); 0 without modes [m/N].
+double find_flexibility(const flexbody::ContactPart& part,
                         const std::optional<SurfaceMaterial>& material) {
-  if (!part.is_flexible()) return 0.0;
+  if (part.motion_B.cols() == 0) return 0.0;
   double own = 0.0;
   if (material) {
     const double nu = material->poisson_ratio;
-    const double a = std::sqrt(part.area() / std::numbers::pi);
+    const double a = std::sqrt(find_area(part) / std::numbers::pi);
     own = (1.0 - nu * nu) / (2.0 * material->youngs_modulus * a);
   }
-  return part.flexibility() + std::max(2.0 * part.residual() - own, 0.0);
+  return part.flexibility + std::max(2.0 * part.residual - own, 0.0);
+}
+
+bool is_rigid_mesh(const ContactSide& side) {
+  return !side.solids.empty() && side.slices.empty();
 }
 
 // Flat faces alone: a solid or several, or a flexible surface with parts.
@@ -56,10 +70,10 @@ bool suits_round(const ContactSide& flat, const ShapeKind& shape) {
   const auto suits_body = [&](const ConvexSolid& solid) {
     return PairPotential::suits(solid, body);
   };
+  const bool is_flexible = find_skin(flat) != nullptr && !is_rigid_mesh(flat);
+  if (is_flexible && std::holds_alternative<Sphere>(shape)) return false;
   if (!flat.solids.empty()) return std::ranges::all_of(flat.solids, suits_body);
-  if (find_skin(flat) == nullptr)
-    return suits_body(ConvexSolid(flat.shape.kind));
-  return !std::holds_alternative<Sphere>(shape);
+  return is_flexible || suits_body(ConvexSolid(flat.shape.kind));
 }
 
 std::size_t count_parts(const ContactSide& side) {
@@ -82,28 +96,31 @@ bool suits(const ContactSide& A, const ContactSide& B) {
 
 std::vector<PatchPart> make_parts(const ContactSide& side) {
   std::vector<PatchPart> parts;
-  for (const ConvexSolid& solid : side.solids) {
-    parts.emplace_back(solid, side.shape.X_BS);
+  const Skin* skin = find_skin(side);
+  for (std::size_t i = 0; i < side.solids.size(); ++i) {
+    const ConvexSolid& solid = side.solids[i];
+    if (side.slices.empty()) {
+      parts.emplace_back(solid, side.shape.X_BS);
+    } else {
+      parts.emplace_back(skin->surface().slices[side.slices[i]], solid);
+    }
   }
   if (!parts.empty()) return parts;
-  const Skin* skin = find_skin(side);
   if (skin == nullptr) return {PatchPart(side.shape)};
   for (const flexbody::ContactPart& part : skin->surface().parts) {
-    parts.emplace_back(part);
+    parts.emplace_back(part, find_flexibility(part, side.material));
   }
   return parts;
 }
 
 std::vector<SeriesPotential> make_potentials(
-    const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
-    const ContactSide& side_B, const std::vector<PatchPart>& parts_B,
-    double modulus) {
+    const std::vector<PatchPart>& parts_A,
+    const std::vector<PatchPart>& parts_B, double modulus) {
   std::vector<SeriesPotential> potentials;
   for (const PatchPart& A : parts_A) {
     for (const PatchPart& B : parts_B) {
-      potentials.emplace_back(A.body(), B.body(), modulus,
-                              find_flexibility(A, side_A.material),
-                              find_flexibility(B, side_B.material));
+      potentials.emplace_back(A.body(), B.body(), modulus, A.flexibility(),
+                              B.flexibility());
     }
   }
   return potentials;

@@ -14,14 +14,13 @@ namespace limber::contact {
 /// pairs of parts at most.
 [[nodiscard]] bool suits(const ContactSide& A, const ContactSide& B);
 
-/// One of a shape, those of a flexible surface or of a rigid mesh.
+/// One of a shape, those of a flexible surface or of a mesh.
 [[nodiscard]] std::vector<PatchPart> make_parts(const ContactSide& side);
 
 /// Of all pairs of parts, those of the first of A first.
 /// @param modulus E* > 0 [Pa]
 [[nodiscard]] std::vector<SeriesPotential> make_potentials(
-    const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
-    const ContactSide& side_B, const std::vector<PatchPart>& parts_B,
-    double modulus);
+    const std::vector<PatchPart>& parts_A,
+    const std::vector<PatchPart>& parts_B, double modulus);
 
 }  // namespace limber::contact

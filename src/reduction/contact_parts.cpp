@@ -12,12 +12,14 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/reduction/contact_residual.hpp"
+#include "limber/reduction/slices/roll_off.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
 using Polygon = std::vector<Vector2>;
+using Sample = SurfaceSample;
 
 // Difference of a surface's area and that of its hull [-].
 constexpr double kConvex = 5e-3;
@@ -145,41 +147,6 @@ Outline find_outline(const fem::Surface& surface, const Vector3& normal) {
   return {frame, simplify(find_hull(project(surface, frame), size))};
 }
 
-/// A point of the surface that stands for the area around it.
-struct Sample {
-  const fem::SurfaceFace* face = nullptr;
-  VectorX shape;  // of the face's nodes
-  Vector3 x = Vector3::Zero();
-  Vector2 place = Vector2::Zero();
-  double area = 0.0;
-};
-
-std::vector<Sample> sample(const fem::Mesh& mesh, const fem::Surface& surface,
-                           const Frame& frame) {
-  constexpr std::size_t kFew = 64;
-  const int divisions = surface.faces.size() > kFew ? 4 : 16;
-  std::vector<fem::FaceTable> rules;
-  for (const fem::FaceShape& shape : surface.shapes) {
-    rules.push_back(shape.make_rule(divisions));
-  }
-  std::vector<Sample> samples;
-  for (const fem::SurfaceFace& face : surface.faces) {
-    const fem::FaceTable& rule = rules[face.shape];
-    const Matrix3X x = mesh.x(Eigen::all, face.nodes);
-    const Matrix3X points = x * rule.shape;
-    const Matrix3X along_u = x * rule.along_u;
-    const Matrix3X along_v = x * rule.along_v;
-    for (Eigen::Index q = 0; q < points.cols(); ++q) {
-      const Vector3 p = points.col(q);
-      const double area =
-          Vector3(along_u.col(q)).cross(Vector3(along_v.col(q))).norm();
-      samples.push_back(
-          {&face, rule.shape.col(q), p, frame.find(p), rule.weights[q] * area});
-    }
-  }
-  return samples;
-}
-
 /// The mean motion of samples as sums over nodes.
 ///
 /// Equation   u = sum a u / A, theta = J^-1 sum a r x u, J = sum a (r^2 1 -
@@ -286,22 +253,11 @@ Grid make_grid(const Polygon& hull) {
 }
 
 std::vector<std::vector<const Sample*>> sort_samples(
-    const std::vector<Sample>& samples, const Grid& grid) {
+    const std::vector<Sample>& samples, const Frame& frame, const Grid& grid) {
   std::vector<std::vector<const Sample*>> cells(grid.size());
-  for (const Sample& s : samples) cells[grid.find(s.place)].push_back(&s);
+  for (const Sample& s : samples)
+    cells[grid.find(frame.find(s.x))].push_back(&s);
   return cells;
-}
-
-// The modes' displacements along the normal.
-VectorX find_heights(const Sample& s, const MatrixX& Phi, Eigen::Index modes,
-                     const Vector3& normal) {
-  VectorX heights = VectorX::Zero(modes);
-  for (std::size_t k = 0; k < s.face->nodes.size(); ++k) {
-    heights +=
-        s.shape[static_cast<Eigen::Index>(k)] *
-        (Phi.block(3 * s.face->nodes[k], 0, 3, modes).transpose() * normal);
-  }
-  return heights;
 }
 
 // Share of the flexibility that is the parts' own deformation.
@@ -328,49 +284,27 @@ double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
   return all > 0.0 ? own / all : 0.0;
 }
 
-Grid choose_grid(const std::vector<Sample>& samples, const Polygon& hull,
+Grid choose_grid(const std::vector<Sample>& samples, const Outline& outline,
                  const VectorX& lambda, const MatrixX& Phi,
                  const Vector3& normal) {
-  Grid grid = make_grid(hull);
+  Grid grid = make_grid(outline.hull);
   while (2 * grid.size() <= kMostParts &&
-         find_deformation(sort_samples(samples, grid), lambda, Phi, normal) >
-             kMostDeformation) {
+         find_deformation(sort_samples(samples, outline.frame, grid), lambda,
+                          Phi, normal) > kMostDeformation) {
     grid.refine();
   }
   return grid;
-}
-
-// Of each mode's share in the part's flexibility along the normal: the number
-// of modes that matter, and the highest frequency among them.
-struct Band {
-  int count = 0;
-  double highest = 0.0;  // omega_N [rad/s]
-};
-
-Band find_band(const VectorX& flexibility, const VectorX& lambda) {
-  constexpr double kLeastShare = 1e-4;
-  Band band;
-  for (Eigen::Index k = 0; k < lambda.size(); ++k) {
-    if (flexibility[k] <= kLeastShare * flexibility.sum()) continue;
-    ++band.count;
-    band.highest = std::max(band.highest, std::sqrt(lambda[k]));
-  }
-  return band;
 }
 
 void roll_off(const VectorX& lambda, ContactPart& part) {
   const VectorX along =
       part.motion_B.topLeftCorner(3, lambda.size()).transpose() * part.normal_B;
   const VectorX flexibility = along.cwiseAbs2().cwiseQuotient(lambda);
-  const Band band = find_band(flexibility, lambda);
-  part.flexibility = part.residual;
-  if (band.count == 0) return;
-  const double end = band.highest * (band.count + 0.5) / band.count;
+  const VectorX squares = find_roll_off(flexibility, lambda);
+  part.flexibility =
+      part.residual + (VectorX::Ones(lambda.size()) - squares).dot(flexibility);
   for (Eigen::Index k = 0; k < lambda.size(); ++k) {
-    const double u = std::min(std::sqrt(lambda[k]) / end, 1.0);
-    const double square = 1.0 - u * u * u * u;
-    part.motion_B.col(k) *= std::sqrt(square);
-    part.flexibility += (1.0 - square) * flexibility[k];
+    part.motion_B.col(k) *= std::sqrt(squares[k]);
   }
 }
 
@@ -409,14 +343,13 @@ std::vector<ContactPart> make_contact_parts(
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     double depth) {
   const Outline outline = find_outline(surface, normal);
-  const std::vector<Sample> samples = sample(body.mesh, surface, outline.frame);
+  const std::vector<Sample> samples = sample_surface(body.mesh, surface);
   double area = 0.0;
   for (const Sample& s : samples) area += s.area;
   const double hull_area = find_area(outline.hull);
   if (std::abs(hull_area - area) > kConvex * hull_area) return {};
-  const Grid grid =
-      choose_grid(samples, outline.hull, basis.lambda, Phi, normal);
-  const auto cells = sort_samples(samples, grid);
+  const Grid grid = choose_grid(samples, outline, basis.lambda, Phi, normal);
+  const auto cells = sort_samples(samples, outline.frame, grid);
   std::vector<ContactPart> parts;
   std::vector<ContactPatch> patches;
   for (std::size_t i = 0; i < cells.size(); ++i) {

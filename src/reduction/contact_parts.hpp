@@ -7,13 +7,10 @@
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/slices/surface_samples.hpp"
 
 /// Flat surfaces as parts that move as one piece. Part of limber_reduction.
 namespace limber::flexbody {
-
-/// Share of the surface's modal flexibility along its normal that the parts'
-/// own deformation may have [-].
-inline constexpr double kMostDeformation = 1e-4;
 
 /// Divides a flat surface by an even grid, as coarse as its modes allow: until
 /// sum_k <(u_k - fit)^2> / lambda_k <= kMostDeformation sum_k <u_k^2> /

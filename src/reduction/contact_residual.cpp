@@ -38,11 +38,27 @@ class Leftover {
             patch.weights[static_cast<Eigen::Index>(i)] * patch.normal;
       }
     }
-    F -= answered_ * (basis_.Phi.transpose() * F);
-    return body_.inverse.project_load(F);
+    return take_out(F);
+  }
+
+  /// The same of loads on all nodes, 3N x k.
+  [[nodiscard]] MatrixX list_loads(const MatrixX& loads) const {
+    MatrixX F = MatrixX::Zero(body_.support.matrices.dof_count(), loads.cols());
+    for (std::size_t node = 0; node < row_of_.size(); ++node) {
+      const int row = row_of_[node];
+      if (row < 0) continue;
+      F.middleRows<3>(3 * row) =
+          loads.middleRows<3>(3 * static_cast<Eigen::Index>(node));
+    }
+    return take_out(F);
   }
 
  private:
+  [[nodiscard]] MatrixX take_out(const MatrixX& F) const {
+    return body_.inverse.project_load(F -
+                                      answered_ * (basis_.Phi.transpose() * F));
+  }
+
   const MeshedBody& body_;
   const ReducedBasis& basis_;
   std::vector<int> row_of_;
@@ -51,6 +67,16 @@ class Leftover {
 
 VectorX sum_products(const MatrixX& A, const MatrixX& B) {
   return A.cwiseProduct(B).colwise().sum().transpose();
+}
+
+// F^T K^+ F
+MatrixX multiply_flexibility(const MeshedBody& body, const MatrixX& F) {
+  const MatrixX X = body.inverse.solve_shifted(F);
+  const MatrixX R =
+      F.transpose() * X -
+      body.inverse.shift() *
+          (X.transpose() * multiply_mass(body.support.matrices.M_s, X));
+  return 0.5 * (R + R.transpose());
 }
 
 }  // namespace
@@ -81,14 +107,13 @@ VectorX calc_residual_flexibility(const MeshedBody& body,
 
 MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
                              const std::vector<ContactPatch>& patches) {
-  const MatrixX F =
-      Leftover(body, basis).list_loads(patches, 0, patches.size());
-  const MatrixX X = body.inverse.solve_shifted(F);
-  const MatrixX R =
-      F.transpose() * X -
-      body.inverse.shift() *
-          (X.transpose() * multiply_mass(body.support.matrices.M_s, X));
-  return 0.5 * (R + R.transpose());
+  return multiply_flexibility(
+      body, Leftover(body, basis).list_loads(patches, 0, patches.size()));
+}
+
+MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
+                             const MatrixX& loads) {
+  return multiply_flexibility(body, Leftover(body, basis).list_loads(loads));
 }
 
 double calc_hertz_share(const fem::ElasticMaterial& material, double radius) {

@@ -31,6 +31,11 @@ namespace limber::flexbody {
     const MeshedBody& body, const ReducedBasis& basis,
     const std::vector<ContactPatch>& patches);
 
+/// The same of any loads. @param loads 3N x k on all nodes of the mesh [-]
+[[nodiscard]] MatrixX calc_residual_matrix(const MeshedBody& body,
+                                           const ReducedBasis& basis,
+                                           const MatrixX& loads);
+
 /// Mean displacement of a half-space under Hertz's pressure of radius b,
 /// weighted by this pressure: the part of Hertz's approach due to the local
 /// deformation [m/N].

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,9 @@
 #include "limber/reduction/contact_parts.hpp"
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_residual.hpp"
+#include "limber/reduction/slices/roll_off.hpp"
+#include "limber/reduction/slices/skin_division.hpp"
+#include "limber/reduction/slices/slice_motion.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -205,6 +210,85 @@ BareSurface make_bare_surface(const fem::Mesh& mesh, const ContactGroup& group,
   return bare;
 }
 
+// 2 R_res as far as it exceeds the compliance 1 / (2 E' a) of the slice's own
+// half space, along each axis along which it presses; a of the larger side.
+Matrix3 find_excess(const SkinSlice& slice, const Matrix3& residual,
+                    const Matrix3& axes, const fem::ElasticMaterial& material) {
+  const double nu = material.poisson_ratio;
+  Vector3 excess = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 axis = axes.col(k);
+    double ahead = 0.0;
+    double behind = 0.0;
+    for (const SurfaceSample* s : slice.samples) {
+      ahead += s->area * std::max(s->normal.dot(axis), 0.0);
+      behind += s->area * std::max(-s->normal.dot(axis), 0.0);
+    }
+    const double a = std::sqrt(std::max(ahead, behind) / std::numbers::pi);
+    const double own = (1.0 - nu * nu) / (2.0 * material.youngs_modulus * a);
+    excess[k] = std::max(2.0 * axis.dot(residual * axis) - own, 0.0);
+  }
+  return axes * excess.asDiagonal() * axes.transpose();
+}
+
+// Of each mode the share along the axis along which it moves the slice most,
+// of all modes' flexibility there.
+void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
+                    ContactSlice& slice) {
+  const MatrixX along =
+      axes.transpose() * slice.motion_B.topLeftCorner(3, lambda.size());
+  MatrixX squares(3, lambda.size());
+  MatrixX shares(3, lambda.size());
+  for (int k = 0; k < 3; ++k) {
+    const VectorX flexibility =
+        along.row(k).transpose().cwiseAbs2().cwiseQuotient(lambda);
+    squares.row(k) = find_roll_off(flexibility, lambda);
+    shares.row(k) = flexibility / std::max(flexibility.sum(),
+                                           std::numeric_limits<double>::min());
+  }
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+    int axis = 0;
+    (void)shares.col(i).maxCoeff(&axis);
+    const double square = squares(axis, i);
+    const Vector3 moved = slice.motion_B.col(i).head<3>();
+    slice.flexibility_B +=
+        (1.0 - square) / lambda[i] * moved * moved.transpose();
+    slice.motion_B.col(i) *= std::sqrt(square);
+  }
+}
+
+std::vector<ContactSlice> make_contact_slices(
+    const MeshedBody& body, const fem::Surface& surface,
+    const fem::ElasticMaterial& material, const ReducedBasis& basis,
+    const MatrixX& Phi, const Vector3& center) {
+  const std::vector<SurfaceSample> samples = sample_surface(body.mesh, surface);
+  const double nu = material.poisson_ratio;
+  const double modulus = material.youngs_modulus / (1.0 - nu * nu);
+  const SkinDivision division =
+      divide_skin(samples, basis.lambda, Phi, modulus, kMostSlices);
+  const Eigen::Index nodes = body.mesh.x.cols();
+  MatrixX loads(3 * nodes, 3 * std::ssize(division.slices));
+  std::vector<ContactSlice> slices;
+  for (const SkinSlice& slice : division.slices) {
+    const SliceMotion motion(slice.samples);
+    loads.middleCols<3>(3 * std::ssize(slices)) = motion.find_loads(nodes);
+    slices.push_back(
+        {.normals_B = slice.normals,
+         .heights = slice.heights - slice.normals.transpose() * center,
+         .centre_B = motion.centre() - center,
+         .motion_B = motion.find_motion(Phi)});
+  }
+  const MatrixX residual = calc_residual_matrix(body, basis, loads);
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const Eigen::Index at = 3 * static_cast<Eigen::Index>(i);
+    const Matrix3 R = residual.block<3, 3>(at, at);
+    slices[i].flexibility_B =
+        R + find_excess(division.slices[i], R, division.axes, material);
+    roll_off_slice(basis.lambda, division.axes, slices[i]);
+  }
+  return slices;
+}
+
 ContactSurface make_contact_surface(const MeshedBody& body,
                                     const ContactGroup& group,
                                     const ReducedBasis& basis,
@@ -221,6 +305,9 @@ ContactSurface make_contact_surface(const MeshedBody& body,
     contact.parts =
         make_contact_parts(body, bare.surface, contact.pads.normal_B, basis,
                            Phi, center, contact.patch_radius.minCoeff());
+  } else if (is_polyhedral(bare.surface)) {
+    contact.slices = make_contact_slices(body, bare.surface, group.material,
+                                         basis, Phi, center);
   }
   return std::move(bare.contact);
 }

@@ -5,19 +5,19 @@
 
 namespace limber::contact {
 
-/// Two bodies in series with flexible layers under a flat face of each, along
-/// its normal.
+/// Two bodies in series with flexible layers under the faces of each, which
+/// move with them.
 ///
-/// Equation   W_s(x) = min over d of W(x + N d) + d' R^-1 d / 2, N = (n_A,
-///            -n_B); gradient that of W there, Hessian K - K N (1 + R N' K
-///            N)^-1 R N' K
-/// Limits     neglects the turn of N with the bodies
+/// Equation   W_s(x) = min over f of W(x + R f) + f' R f / 2, R = R_A + R_B the
+///            displacement of B against A by a force f on B; gradient that of W
+///            there, Hessian K - K (1 + R K)^-1 R K, of displacements
+/// Limits     the Hessian neglects the turn of R with the bodies
 class SeriesPotential {
  public:
-  /// @param R_A, R_B of A along its own z axis, and of B >= 0 [m/N]
-  /// @throws ContractError as PairPotential.
+  /// @param R_A, R_B of both layers, in their bodies' frames, symmetric and
+  /// positive semidefinite [m/N]
   SeriesPotential(const PlacedBody& A, const PlacedBody& B, double modulus,
-                  double R_A, double R_B);
+                  const Matrix3& R_A, const Matrix3& R_B);
 
   /// As PairPotential's. @throws NumericalError if Newton's method fails.
   [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
@@ -27,13 +27,10 @@ class SeriesPotential {
   [[nodiscard]] bool is_point() const { return potential_.is_point(); }
 
  private:
-  // d' R^-1 d / 2 [J].
-  [[nodiscard]] double find_layer_energy(const Eigen::Vector2d& d) const;
-
   PairPotential potential_;
-  Vector3 normal_A_ = Vector3::UnitZ();
-  Vector3 normal_B_ = Vector3::UnitZ();
-  Eigen::Vector2d R_ = Eigen::Vector2d::Zero();
+  Matrix3 R_A_ = Matrix3::Zero();
+  Matrix3 R_B_ = Matrix3::Zero();
+  bool has_layers_ = false;
 };
 
 }  // namespace limber::contact

@@ -94,6 +94,53 @@ std::vector<ContactPart> read_parts(const BodyFileReader& reader,
   return parts;
 }
 
+// Only of a closed surface of flat faces.
+void write_slices(Hdf5File& out, const std::string& at,
+                  const std::vector<ContactSlice>& slices) {
+  if (slices.empty()) return;
+  out.write(at + "count", std::vector<std::int64_t>{std::ssize(slices)}, "1",
+            "pieces that move as one");
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const ContactSlice& slice = slices[i];
+    const std::string of_slice = fmt::format("{}{}/", at, i + 1);
+    out.write(of_slice + "normals_B", slice.normals_B, "1",
+              "of the planes that bound it, away from it, 3 x k");
+    out.write(of_slice + "heights", MatrixX(slice.heights), "m",
+              "of these planes, along their normals from the centre of mass");
+    out.write(of_slice + "centre_B", MatrixX(slice.centre_B), "m",
+              "centre of area, from the centre of mass");
+    out.write(of_slice + "motion_B", slice.motion_B, "kg^-1/2, kg^-1/2 / m",
+              "displacement of the centre and rotation by modes, 6 x m");
+    out.write(of_slice + "flexibility_B", MatrixX(slice.flexibility_B), "m/N",
+              "flexibility that 'motion_B' does not have, 3 x 3");
+  }
+}
+
+// None of earlier versions.
+std::vector<ContactSlice> read_slices(const BodyFileReader& reader,
+                                      const std::string& at,
+                                      Eigen::Index columns) {
+  std::vector<ContactSlice> slices;
+  if (!reader.in().has(at + "count")) return slices;
+  const std::int64_t count = reader.integer(at + "count");
+  if (count < 0 || count > std::int64_t{kMostSlices}) {
+    reader.fail(fmt::format("'{}count' is {}", at, count));
+  }
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::string of_slice = fmt::format("{}{}/", at, i + 1);
+    const Eigen::Index k =
+        reader.in().read_matrix(of_slice + "normals_B").cols();
+    ContactSlice slice;
+    slice.normals_B = reader.matrix(of_slice + "normals_B", 3, k);
+    slice.heights = reader.matrix(of_slice + "heights", k, 1);
+    slice.centre_B = reader.matrix(of_slice + "centre_B", 3, 1);
+    slice.motion_B = reader.matrix(of_slice + "motion_B", 6, columns);
+    slice.flexibility_B = reader.matrix(of_slice + "flexibility_B", 3, 3);
+    slices.push_back(std::move(slice));
+  }
+  return slices;
+}
+
 void write_surface(Hdf5File& out, const std::string& at,
                    const ContactSurface& surface) {
   out.write(at + "name", surface.name, "group, or skin");
@@ -120,6 +167,7 @@ void write_surface(Hdf5File& out, const std::string& at,
             "of edges 01, 12, 20 or -1");
   write_pads(out, at + "pads/", surface.pads);
   if (surface.pads.count() > 0) write_parts(out, at + "parts/", surface.parts);
+  write_slices(out, at + "slices/", surface.slices);
   out.write(
       at + "material",
       MatrixX(Eigen::Vector2d(surface.youngs_modulus, surface.poisson_ratio)),
@@ -177,6 +225,7 @@ ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
   if (surface.pads.count() > 0) {
     surface.parts = read_parts(reader, at + "parts/", columns);
   }
+  surface.slices = read_slices(reader, at + "slices/", columns);
   const MatrixX material = reader.matrix(at + "material", 2, 1);
   surface.youngs_modulus = material(0, 0);
   surface.poisson_ratio = material(1, 0);

@@ -21,7 +21,7 @@ namespace {
 // Increment when the reduction changes, to invalidate old entries.
 constexpr int kReductionVersion = 6;
 // The same for contact surfaces, for bodies that have any.
-constexpr int kContactVersion = 2;
+constexpr int kContactVersion = 3;
 // The same for second-order kinematics.
 constexpr int kManifoldVersion = 3;
 // The same for stress modes.

@@ -52,6 +52,26 @@ struct ContactPart {
   double flexibility = 0.0;  ///< R, of what motion_B lacks [m/N]
 };
 
+/// Largest number of slices of a surface.
+inline constexpr std::size_t kMostSlices = 8;
+
+/// A piece of a closed surface of flat faces that moves as one: what lies
+/// between planes.
+///
+/// Equation   motion of its centre and rotation motion_B eta, without a part of
+///            the highest modes, as a ContactPart's; u = motion_B eta + R f
+///            for a force f spread over its faces
+/// Source     docs/theory/contact_surfaces.md
+struct ContactSlice {
+  Matrix3X normals_B;  ///< 3 x k of the planes, away from it, unit [-]
+  VectorX heights;     ///< k: n . x on them, from the c.m. [m]
+  /// Of its area, undeformed, relative to the c.m. [m]
+  Vector3 centre_B = Vector3::Zero();
+  MatrixX motion_B;  ///< 6 x m [kg^-1/2, kg^-1/2 / m]
+  /// R, of what motion_B lacks, positive semidefinite [m/N]
+  Matrix3 flexibility_B = Matrix3::Zero();
+};
+
 /// The part of a body's surface that may touch others: its nodes with the
 /// smoothed motion of a patch around each, and the residual flexibility of the
 /// basis there.
@@ -82,8 +102,10 @@ struct ContactSurface {
   std::vector<std::array<int, 6>> faces;
   ContactPads pads;  ///< none (count() 0) of a surface that is not flat
   std::vector<ContactPart> parts;  ///< none unless it is flat and convex
-  double youngs_modulus = 0.0;     ///< of the material under the surface [Pa]
-  double poisson_ratio = 0.0;      ///< of the same [-]
+  /// None unless it is closed, of flat faces that meet at edges.
+  std::vector<ContactSlice> slices;
+  double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]
+  double poisson_ratio = 0.0;   ///< of the same [-]
 };
 
 }  // namespace limber::flexbody

@@ -57,10 +57,15 @@ constexpr auto fields_of(const ContactPart*) {
                      "flexibility [m/N]");
 }
 
+constexpr auto fields_of(const ContactSlice*) {
+  return list_fields("contact slice", "normals", "heights [m]", "centre [m]",
+                     "motion [kg^-1/2]", "flexibility [m/N]");
+}
+
 constexpr auto fields_of(const ContactSurface*) {
   return list_fields("contact surface", "name", "tags", "x_B [m]",
                      "Phi_B [kg^-1/2]", "residual [m/N]", "patch radius [m]",
-                     "faces", "pads", "parts", "Young's modulus [Pa]",
+                     "faces", "pads", "parts", "slices", "Young's modulus [Pa]",
                      "Poisson's ratio [-]");
 }
 

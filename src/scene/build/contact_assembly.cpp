@@ -80,6 +80,13 @@ void make_rigid_parts(std::vector<flexbody::ContactPart>& parts) {
   }
 }
 
+void make_rigid_slices(std::vector<flexbody::ContactSlice>& slices) {
+  for (flexbody::ContactSlice& slice : slices) {
+    slice.motion_B.resize(6, 0);
+    slice.flexibility_B.setZero();
+  }
+}
+
 // Products of modes move the surface at level nonlinear alone.
 void take_columns(const flexbody::ReducedBody& body, bool has_products,
                   flexbody::ContactSurface& surface) {
@@ -101,6 +108,9 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
   }
   for (flexbody::ContactPart& part : surface.parts) {
     part.motion_B.conservativeResize(Eigen::NoChange, columns);
+  }
+  for (flexbody::ContactSlice& slice : surface.slices) {
+    slice.motion_B.conservativeResize(Eigen::NoChange, columns);
   }
 }
 
@@ -236,6 +246,7 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     copy.residual.setZero();
     make_rigid_pads(copy);
     make_rigid_parts(copy.parts);
+    make_rigid_slices(copy.slices);
   }
   skin = std::make_shared<const contact::Skin>(std::move(copy));
   return skin;

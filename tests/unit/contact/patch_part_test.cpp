@@ -58,7 +58,7 @@ struct Moving {
 TEST(PatchPart, MovesAtTheRateOfItsPose) {
   srand(3);
   const Moving now;
-  const PatchPart part(make_part(0.0));
+  const PatchPart part(make_part(0.0), 0.0);
   const double h = 1e-6;
   const PairBody before = part.find_motion(now.go(-h).view());
   const PairBody at = part.find_motion(now.view());
@@ -72,7 +72,7 @@ TEST(PatchPart, MovesAtTheRateOfItsPose) {
 TEST(PatchPart, CarriesItsPlacesAlong) {
   srand(4);
   const Moving now;
-  const PatchPart part(make_part(0.0));
+  const PatchPart part(make_part(0.0), 0.0);
   const PairBody at = part.find_motion(now.view());
   const Vector3 p_W = at.p_WB + Vector3(0.003, -0.002, 0.004);
   joints::PairPlace place{Vector3::Zero(), Matrix3X::Zero(3, kModes)};

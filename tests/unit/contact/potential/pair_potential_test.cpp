@@ -247,12 +247,15 @@ TEST(PairPotential, OfAPartWithItsRimIsThatOfABox) {
   }
 }
 
+Matrix3 along_z(double R) { return Vector3(0.0, 0.0, R).asDiagonal(); }
+
 TEST(SeriesPotential, OfAFlatIsItsSpringInSeriesWithTheLayer) {
   const PlacedBody slab = make_slab(0.2, {0, 1, 2, 3});
   const PlacedBody plane{ConvexSolid(HalfSpace{}), {}};
   const double k = 2.0 * kModulus * std::sqrt(0.16 / std::numbers::pi);
   for (const double R : {0.0, 0.1 / k, 1.0 / k, 1e3 / k}) {
-    const SeriesPotential potential(plane, slab, kModulus, 0.0, R);
+    const SeriesPotential potential(plane, slab, kModulus, Matrix3::Zero(),
+                                    along_z(R));
     const double d = 1e-6;
     // The slab's face looks down.
     const joints::PairBody B{exp_rotation({std::numbers::pi, 0, 0}),
@@ -270,7 +273,8 @@ TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
   const PlacedBody table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
                          {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
   for (const double R : {1e-12, 1e-10, 1e-8}) {
-    const SeriesPotential potential(slab, table, kModulus, R, 0.0);
+    const SeriesPotential potential(slab, table, kModulus, along_z(R),
+                                    Matrix3::Zero());
     for (const Vector3& tilt : {Vector3(1e-4, 0, 0), Vector3(0.2, 0.1, 0)}) {
       const Matrix3 R_WA =
           exp_rotation(tilt) * exp_rotation({std::numbers::pi, 0, 0});
@@ -291,6 +295,40 @@ TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
             << R << ", " << i;
       }
     }
+  }
+}
+
+// Layers that give way along all axes and turn with their bodies: the wrench is
+// the gradient by motions and turns of either body.
+TEST(SeriesPotential, HasTheGradientOfItsEnergyWithLayersOfAllAxes) {
+  const PlacedSolid box{ConvexSolid(Box{Vector3(0.05, 0.04, 0.03)}), {}};
+  const PlacedSolid table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
+                          {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
+  Matrix3 R_A;
+  R_A << 3, 1, 0.5, 1, 2, -0.7, 0.5, -0.7, 1;
+  const Matrix3 R_B = Vector3(1, 5, 2).asDiagonal();
+  for (const double size : {1e-12, 1e-10, 1e-8}) {
+    const SeriesPotential potential(box, table, kModulus, size * R_A,
+                                    size * R_B);
+    const Matrix3 R_WA = exp_rotation({0.5, 0.4, 0.2});
+    double reach = 0.0;
+    for (const Vector3& x : box.solid.corners()) {
+      reach = std::max(reach, -(R_WA * x).z());
+    }
+    const Pose X_WA{R_WA, Vector3(0.01, 0.02, reach - 1e-4)};
+    const auto find = [&](const Pose& X_A, const Pose& X_B) {
+      return potential.evaluate({{X_A.R, X_A.p}, {X_B.R, X_B.p}}, true);
+    };
+    const Patch patch = find(X_WA, {});
+    ASSERT_TRUE(patch.touches);
+    const auto by_B = find_gradient(Pose{}, patch.centre_W, [&](const Pose& X) {
+      return find(X_WA, X).energy;
+    });
+    const auto by_A = find_gradient(X_WA, patch.centre_W, [&](const Pose& X) {
+      return find(X, {}).energy;
+    });
+    EXPECT_LT((by_B - patch.gradient_W).norm(), 2e-5 * patch.load()) << size;
+    EXPECT_LT((by_A + patch.gradient_W).norm(), 2e-5 * patch.load()) << size;
   }
 }
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/reduction/slices/skin_division.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/common/index.hpp"
+#include "limber/reduction/slices/slice_motion.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+using Triangle = std::array<int, 6>;
+
+Vector3 find_normal(const fem::Surface& surface, const Triangle& t) {
+  const auto x = [&](std::size_t k) { return surface.points[index(t[k])].x; };
+  return (x(1) - x(0)).cross(x(2) - x(0)).normalized();
+}
+
+bool is_flat(const fem::Surface& surface, const Triangle& t, double nothing) {
+  if (t[3] < 0) return true;
+  const auto x = [&](std::size_t k) { return surface.points[index(t[k])].x; };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 middle = 0.5 * (x(k) + x((k + 1) % 3));
+    if ((x(3 + k) - middle).norm() > nothing) return false;
+  }
+  return true;
+}
+
+double find_size(const fem::Surface& surface) {
+  Vector3 low = surface.points.front().x;
+  Vector3 high = low;
+  for (const fem::SurfacePoint& point : surface.points) {
+    low = low.cwiseMin(point.x);
+    high = high.cwiseMax(point.x);
+  }
+  return (high - low).norm();
+}
+
+// Coordinates of each sample along the axes.
+Matrix3X list_places(const std::vector<SurfaceSample>& samples,
+                     const Matrix3& axes) {
+  Matrix3X places(3, std::ssize(samples));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    places.col(static_cast<Eigen::Index>(i)) = axes.transpose() * samples[i].x;
+  }
+  return places;
+}
+
+Matrix3 find_axes(const std::vector<SurfaceSample>& samples) {
+  double area = 0.0;
+  Vector3 first = Vector3::Zero();
+  for (const SurfaceSample& s : samples) {
+    area += s.area;
+    first += s.area * s.x;
+  }
+  const Vector3 centre = first / area;
+  Matrix3 second = Matrix3::Zero();
+  for (const SurfaceSample& s : samples) {
+    const Vector3 r = s.x - centre;
+    second += s.area * r * r.transpose();
+  }
+  Matrix3 axes = dense::find_eigenpairs(second).vectors;
+  if (axes.determinant() < 0.0) axes.col(2) *= -1.0;
+  return axes;
+}
+
+/// A box, and the samples within it.
+struct Cell {
+  Vector3 low;
+  Vector3 high;
+  std::vector<Eigen::Index> samples;
+  double own = 0.0;  // what its own deformation has of the flexibility
+
+  [[nodiscard]] int find_longest() const {
+    const Vector3 extent = high - low;
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (extent[k] > (1.0 + 1e-6) * extent[longest]) longest = k;
+    }
+    return longest;
+  }
+};
+
+class Division {
+ public:
+  Division(const std::vector<SurfaceSample>& samples, const VectorX& lambda,
+           const MatrixX& Phi, double modulus)
+      : samples_(samples),
+        lambda_(lambda),
+        modulus_(modulus),
+        Phi_(Phi.leftCols(lambda.size())),
+        axes_(find_axes(samples)),
+        places_(list_places(samples, axes_)),
+        heights_(lambda.size(), std::ssize(samples)) {
+    for (Eigen::Index i = 0; i < heights_.cols(); ++i) {
+      const SurfaceSample& s = samples_[static_cast<std::size_t>(i)];
+      heights_.col(i) = find_heights(s, Phi_, lambda.size(), s.normal);
+      all_ += s.area * weigh(heights_.col(i));
+    }
+  }
+
+  [[nodiscard]] SkinDivision run(std::size_t most) {
+    Cell whole{places_.rowwise().minCoeff(), places_.rowwise().maxCoeff(), {}};
+    for (Eigen::Index i = 0; i < places_.cols(); ++i)
+      whole.samples.push_back(i);
+    whole.own = find_own(whole);
+    low_ = whole.low;
+    high_ = whole.high;
+    cells_ = {std::move(whole)};
+    while (find_all_own() > kMostDeformation * all_ && refine(most)) {
+    }
+    SkinDivision division{axes_, {}};
+    for (const Cell& cell : cells_) division.slices.push_back(make(cell));
+    return division;
+  }
+
+ private:
+  // sum u_k^2 / lambda_k
+  [[nodiscard]] double weigh(const VectorX& u) const {
+    return u.cwiseAbs2().cwiseQuotient(lambda_).sum();
+  }
+
+  [[nodiscard]] std::vector<const SurfaceSample*> list_samples(
+      const Cell& cell) const {
+    std::vector<const SurfaceSample*> list;
+    for (const Eigen::Index i : cell.samples) {
+      list.push_back(&samples_[static_cast<std::size_t>(i)]);
+    }
+    return list;
+  }
+
+  [[nodiscard]] double find_own(const Cell& cell) const {
+    const SliceMotion slice(list_samples(cell));
+    const MatrixX motion = slice.find_motion(Phi_);
+    double own = 0.0;
+    for (const Eigen::Index i : cell.samples) {
+      const SurfaceSample& s = samples_[static_cast<std::size_t>(i)];
+      const Vector3 r = s.x - slice.centre();
+      const VectorX fit =
+          motion.topRows<3>().transpose() * s.normal +
+          motion.bottomRows<3>().transpose() * r.cross(s.normal);
+      own += s.area * weigh(heights_.col(i) - fit);
+    }
+    return own;
+  }
+
+  // Whether its own deformation is more than what a flat of a sixth of its
+  // area, as a cube has, is pressed into its half space.
+  [[nodiscard]] bool is_soft(const Cell& cell) const {
+    constexpr double kMost = 4.0;
+    double area = 0.0;
+    for (const Eigen::Index i : cell.samples) {
+      area += samples_[static_cast<std::size_t>(i)].area;
+    }
+    const double a = std::sqrt(area / (6.0 * std::numbers::pi));
+    return cell.own / area > kMost / (2.0 * modulus_ * a);
+  }
+
+  [[nodiscard]] double find_all_own() const {
+    double own = 0.0;
+    for (const Cell& cell : cells_) own += cell.own;
+    return own;
+  }
+
+  // Halves the soft cells that deform at least half as much as the worst one,
+  // so that symmetric bodies have symmetric cells.
+  // @return whether there are any and the number allows it
+  bool refine(std::size_t most) {
+    constexpr double kAlike = 0.5;
+    double worst = 0.0;
+    for (const Cell& cell : cells_) {
+      if (is_soft(cell)) worst = std::max(worst, cell.own);
+    }
+    if (worst == 0.0) return false;
+    std::vector<Cell> next;
+    for (const Cell& cell : cells_) {
+      if (cell.own < kAlike * worst || !is_soft(cell)) {
+        next.push_back(cell);
+        continue;
+      }
+      for (Cell& half : halve(cell)) {
+        if (half.samples.empty()) continue;
+        half.own = find_own(half);
+        next.push_back(std::move(half));
+      }
+    }
+    if (next.size() > most) return false;
+    cells_ = std::move(next);
+    return true;
+  }
+
+  [[nodiscard]] std::array<Cell, 2> halve(const Cell& cell) const {
+    const int k = cell.find_longest();
+    const double middle = 0.5 * (cell.low[k] + cell.high[k]);
+    std::array<Cell, 2> halves{Cell{cell.low, cell.high, {}},
+                               Cell{cell.low, cell.high, {}}};
+    halves[0].high[k] = middle;
+    halves[1].low[k] = middle;
+    for (const Eigen::Index i : cell.samples) {
+      halves[places_(k, i) < middle ? 0 : 1].samples.push_back(i);
+    }
+    return halves;
+  }
+
+  [[nodiscard]] SkinSlice make(const Cell& cell) const {
+    SkinSlice slice{list_samples(cell), Matrix3X(3, 0), VectorX(0)};
+    const auto add = [&](const Vector3& n, double h) {
+      const Eigen::Index k = slice.heights.size();
+      slice.normals.conservativeResize(Eigen::NoChange, k + 1);
+      slice.heights.conservativeResize(k + 1);
+      slice.normals.col(k) = n;
+      slice.heights[k] = h;
+    };
+    for (int k = 0; k < 3; ++k) {
+      if (cell.low[k] > low_[k]) add(-axes_.col(k), -cell.low[k]);
+      if (cell.high[k] < high_[k]) add(axes_.col(k), cell.high[k]);
+    }
+    return slice;
+  }
+
+  const std::vector<SurfaceSample>& samples_;
+  const VectorX& lambda_;
+  double modulus_;
+  MatrixX Phi_;
+  Matrix3 axes_;
+  Matrix3X places_;
+  MatrixX heights_;  // of each mode at each sample
+  double all_ = 0.0;
+  Vector3 low_ = Vector3::Zero();
+  Vector3 high_ = Vector3::Zero();
+  std::vector<Cell> cells_;
+};
+
+}  // namespace
+
+bool is_polyhedral(const fem::Surface& surface) {
+  constexpr double kFlatness = 1e-6;
+  const double kInPlane = std::cos(1e-3);
+  const double kSharp = std::cos(20.0 / 180.0 * std::numbers::pi);
+  const double nothing = kFlatness * find_size(surface);
+  std::map<std::pair<int, int>, Vector3> normals;  // left of each edge
+  const auto visit = [](const Triangle& t, const auto& use) {
+    for (std::size_t k = 0; k < 3; ++k) use(t[k], t[(k + 1) % 3]);
+  };
+  for (const Triangle& t : surface.triangles) {
+    if (!is_flat(surface, t, nothing)) return false;
+    visit(t, [&](int a, int b) { normals[{a, b}] = find_normal(surface, t); });
+  }
+  return std::ranges::all_of(normals, [&](const auto& entry) {
+    const auto& [edge, normal] = entry;
+    const auto other = normals.find({edge.second, edge.first});
+    if (other == normals.end()) return false;
+    const double cosine = normal.dot(other->second);
+    return cosine > kInPlane || cosine < kSharp;
+  });
+}
+
+SkinDivision divide_skin(const std::vector<SurfaceSample>& samples,
+                         const VectorX& lambda, const MatrixX& Phi,
+                         double modulus, std::size_t most) {
+  return Division(samples, lambda, Phi, modulus).run(most);
+}
+
+}  // namespace limber::flexbody
