@@ -12,9 +12,9 @@
 #include "limber/common/errors.hpp"
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
+#include "limber/contact/patches/pressure_sum.hpp"
 #include "limber/contact/point_numbers.hpp"
-#include "limber/contact/pressure_sum.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/contact/touch.hpp"
 
 namespace limber::contact {

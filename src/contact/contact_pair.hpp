@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "limber/contact/contact_side.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/pad_contact.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/touching.hpp"
 

@@ -7,7 +7,7 @@
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/point_numbers.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/contact/touch.hpp"
 #include "limber/joints/pairs/step_place.hpp"
 

@@ -2,8 +2,8 @@
 #include "limber/contact/make_contact.hpp"
 
 #include "limber/contact/contact_pair.hpp"
-#include "limber/contact/patch_pair.hpp"
-#include "limber/contact/patch_sides.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
 
 namespace limber::contact {
 

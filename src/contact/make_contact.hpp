@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "limber/contact/contact_side.hpp"
 #include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {

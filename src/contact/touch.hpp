@@ -5,7 +5,7 @@
 #include <span>
 
 #include "limber/common/stack_array.hpp"
-#include "limber/contact/effective_mass.hpp"
+#include "limber/contact/law/effective_mass.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/meetings.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
-#include "limber/contact/contact_side.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "metamorphic/random_draw.hpp"

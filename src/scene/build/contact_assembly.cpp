@@ -13,7 +13,8 @@
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/patch_sides.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
+#include "limber/contact/patches/skin_solids.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
@@ -215,6 +216,9 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
                        contact::SurfaceMaterial{surface.youngs_modulus,
                                                 surface.poisson_ratio},
                        plan)});
+        contact::SkinSolids parts = contact::split_skin(surface);
+        sides.back().side.solids = std::move(parts.solids);
+        sides.back().side.slices = std::move(parts.slices);
       });
     }
   }

@@ -8,8 +8,8 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/contact/meetings.hpp"
-#include "limber/contact/patch_moduli.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/patches/patch_moduli.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/joints/pairs/touching.hpp"
 

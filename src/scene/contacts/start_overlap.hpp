@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "limber/contact/contact_side.hpp"
 #include "limber/contact/narrow_phase/shape_pair.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 

@@ -53,14 +53,14 @@ struct ObstacleSpec {
 
 /// Options of contacts; those not given follow from shapes and materials.
 struct ContactOptions {
-  std::optional<double> friction;         ///< of sliding, >= 0 [-]
-  std::optional<double> static_friction;  ///< >= friction [-]
-  std::optional<double> stribeck_speed;   ///< > 0 [m/s]
+  std::optional<double> friction;          ///< of sliding, >= 0 [-]
+  std::optional<double> static_friction;   ///< >= friction [-]
+  std::optional<double> stribeck_speed;    ///< > 0 [m/s]
   std::optional<double> rolling_friction;  ///< arm, >= 0 [m]
-  std::optional<double> restitution;      ///< in [0, 1] [-]
-  std::optional<double> damping;          ///< in its place, >= 0 [s/m]
-  std::optional<double> radius;           ///< R_e > 0 [m]
-  std::optional<double> stiffness;        ///< Hertz's k > 0 [N/m^1.5]
+  std::optional<double> restitution;       ///< in [0, 1] [-]
+  std::optional<double> damping;           ///< in its place, >= 0 [s/m]
+  std::optional<double> radius;            ///< R_e > 0 [m]
+  std::optional<double> stiffness;         ///< Hertz's k > 0 [N/m^1.5]
 };
 
 /// Two bodies that may touch: names, or patterns with * and ?.

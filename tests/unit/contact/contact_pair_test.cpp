@@ -156,12 +156,10 @@ TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
   expect_warning_of_depth({}, kRadius, "of the radius of curvature");
 }
 
-// With a radius of curvature given as a hundred times that of the ball, as of
-// the flat faces of a mesh.
-TEST(ContactPair, DeeperThanATenthOfTheBodyIsWarnedOf) {
+// A radius of the contact's own makes it stiffer, and leaves the ball round.
+TEST(ContactPair, OfAStifferBallIsWarnedOfAtTheSameDepth) {
   const double flat = 100.0 * kRadius;
-  expect_warning_of_depth({.radius = flat}, flat,
-                          "of the smaller body's extent");
+  expect_warning_of_depth({.radius = flat}, flat, "of the radius of curvature");
 }
 
 // Few steps an impact, which are not damped; at any phase of the touch.

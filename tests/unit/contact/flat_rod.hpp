@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/system_state.hpp"

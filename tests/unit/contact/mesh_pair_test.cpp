@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/patch_pair.hpp"
-#include "limber/contact/patch_sides.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"

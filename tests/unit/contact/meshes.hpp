@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
-#include "limber/contact/contact_side.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_moduli.hpp"
+#include "limber/contact/patches/patch_moduli.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "unit/contact/meshes.hpp"
 #include "unit/contact/pair_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/patch_sides.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patches/patch_part.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/flat_rod.hpp"
 

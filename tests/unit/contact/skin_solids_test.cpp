@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/skin_solids.hpp"
+#include "limber/contact/patches/skin_solids.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 /// Whole skins of flexible bodies: their solids, and their potential against
@@ -173,11 +173,12 @@ void expect_same(const Sum& one, const Sum& other, double tolerance) {
 
 std::vector<PairBody> list_touches() {
   std::vector<PairBody> all;
+  const ConvexSolid solid(Box{kHalf});
   for (const Vector3& turn : {Vector3(0, 0, 0), Vector3(1e-3, 2e-3, 0.4),
                               Vector3(0.3, 0.4, 0.1), Vector3(0, 0.5, 0)}) {
     PairBody B{exp_rotation(turn), Vector3(0.02, 0.003, 0.0)};
     double low = 1.0;
-    for (const Vector3& x : ConvexSolid(Box{kHalf}).corners()) {
+    for (const Vector3& x : solid.corners()) {
       low = std::min(low, (B.R_WB * (x + Vector3(0.05, 0.0, 0.01))).z());
     }
     B.p_WB.z() = -low - 1e-5;

@@ -14,7 +14,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"

@@ -301,9 +301,9 @@ TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
 // Layers that give way along all axes and turn with their bodies: the wrench is
 // the gradient by motions and turns of either body.
 TEST(SeriesPotential, HasTheGradientOfItsEnergyWithLayersOfAllAxes) {
-  const PlacedSolid box{ConvexSolid(Box{Vector3(0.05, 0.04, 0.03)}), {}};
-  const PlacedSolid table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
-                          {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
+  const PlacedBody box{ConvexSolid(Box{Vector3(0.05, 0.04, 0.03)}), {}};
+  const PlacedBody table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
+                         {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
   Matrix3 R_A;
   R_A << 3, 1, 0.5, 1, 2, -0.7, 0.5, -0.7, 1;
   const Matrix3 R_B = Vector3(1, 5, 2).asDiagonal();
@@ -312,7 +312,7 @@ TEST(SeriesPotential, HasTheGradientOfItsEnergyWithLayersOfAllAxes) {
                                     size * R_B);
     const Matrix3 R_WA = exp_rotation({0.5, 0.4, 0.2});
     double reach = 0.0;
-    for (const Vector3& x : box.solid.corners()) {
+    for (const Vector3& x : std::get<ConvexSolid>(box.kind).corners()) {
       reach = std::max(reach, -(R_WA * x).z());
     }
     const Pose X_WA{R_WA, Vector3(0.01, 0.02, reach - 1e-4)};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/contact/contact_side.hpp"
 #include "limber/contact/law/materials.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 
 namespace limber::contact {
 

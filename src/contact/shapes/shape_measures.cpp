@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_memory.hpp"
+#include "limber/contact/patches/patch_memory.hpp"
 
 namespace limber::contact {
 namespace {

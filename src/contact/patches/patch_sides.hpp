@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "limber/contact/contact_side.hpp"
-#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patches/contact_side.hpp"
+#include "limber/contact/patches/patch_part.hpp"
 #include "limber/contact/potential/series_potential.hpp"
 
 namespace limber::contact {

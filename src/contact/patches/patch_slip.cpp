@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_slip.hpp"
+#include "limber/contact/patches/patch_slip.hpp"
 
 namespace limber::contact {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/skin_solids.hpp"
+#include "limber/contact/patches/skin_solids.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "limber/contact/contact_side.hpp"
-#include "limber/contact/patch_frames.hpp"
-#include "limber/contact/patch_law.hpp"
-#include "limber/contact/patch_memory.hpp"
-#include "limber/contact/patch_touches.hpp"
+#include "limber/contact/patches/contact_side.hpp"
+#include "limber/contact/patches/patch_frames.hpp"
+#include "limber/contact/patches/patch_law.hpp"
+#include "limber/contact/patches/patch_memory.hpp"
+#include "limber/contact/patches/patch_touches.hpp"
+#include "limber/contact/patches/solid_gap.hpp"
 #include "limber/contact/potential/series_potential.hpp"
-#include "limber/contact/solid_gap.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
 namespace limber::contact {

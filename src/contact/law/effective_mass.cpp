@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/effective_mass.hpp"
+#include "limber/contact/law/effective_mass.hpp"
 
 #include "limber/common/errors.hpp"
 

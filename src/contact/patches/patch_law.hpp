@@ -7,7 +7,7 @@
 #include "limber/contact/law/friction_memory.hpp"
 #include "limber/contact/law/load_shells.hpp"
 #include "limber/contact/law/materials.hpp"
-#include "limber/contact/patch_points.hpp"
+#include "limber/contact/patches/patch_points.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 
 namespace limber::contact {

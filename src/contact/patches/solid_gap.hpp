@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patches/patch_part.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {

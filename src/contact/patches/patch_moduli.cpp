@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_moduli.hpp"
+#include "limber/contact/patches/patch_moduli.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/overloaded.hpp"
 #include "limber/common/restitution.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
 
 namespace limber::contact {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "limber/common/stack_array.hpp"
-#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patches/patch_part.hpp"
+#include "limber/contact/patches/skin_solids.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
-#include "limber/contact/skin_solids.hpp"
 
 /// Where the parts of both sides of a pair are, and which may touch.
 namespace limber::contact {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/patch_moduli.hpp"
-#include "limber/contact/patch_sides.hpp"
-#include "limber/contact/patch_slip.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/patches/patch_moduli.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
+#include "limber/contact/patches/patch_slip.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/joints/pairs/step_place.hpp"
 
 namespace limber::contact {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/contact_side.hpp"
+#include "limber/contact/patches/contact_side.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 
 namespace limber::contact {
 namespace {

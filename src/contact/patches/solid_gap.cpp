@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/solid_gap.hpp"
+#include "limber/contact/patches/solid_gap.hpp"
 
 #include <algorithm>
 #include <limits>

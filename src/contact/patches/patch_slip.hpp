@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/contact/patch_law.hpp"
-#include "limber/contact/patch_memory.hpp"
+#include "limber/contact/patches/patch_law.hpp"
+#include "limber/contact/patches/patch_memory.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "limber/contact/patch_pair.hpp"
-#include "limber/contact/patch_slip.hpp"
-#include "limber/contact/pressure_sum.hpp"
-#include "limber/contact/shape_measures.hpp"
-#include "limber/contact/solid_gap.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
+#include "limber/contact/patches/patch_slip.hpp"
+#include "limber/contact/patches/pressure_sum.hpp"
+#include "limber/contact/patches/solid_gap.hpp"
+#include "limber/contact/shapes/shape_measures.hpp"
 
 namespace limber::contact {
 namespace {

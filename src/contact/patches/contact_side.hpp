@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "limber/common/records/manifest.hpp"
-#include "limber/contact/effective_mass.hpp"
 #include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/law/effective_mass.hpp"
 #include "limber/contact/law/materials.hpp"
 #include "limber/contact/potential/convex_solid.hpp"
 #include "limber/contact/shapes/shape.hpp"

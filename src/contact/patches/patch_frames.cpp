@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_frames.hpp"
+#include "limber/contact/patches/patch_frames.hpp"
 
 namespace limber::contact {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patches/patch_part.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patch_sides.hpp"
+#include "limber/contact/patches/patch_sides.hpp"
 
 #include <algorithm>
 #include <cmath>
