@@ -14,8 +14,8 @@
 #include "limber/results/scenery.hpp"
 
 /// PNG pictures: curves by gnuplot, without which they are missing, and scenes
-/// by a rasteriser of our own (results/drawing/). Each function returns an empty
-/// string, or why there is no picture (such as what to install).
+/// by a rasteriser of our own (results/drawing/). Each function returns an
+/// empty string, or why there is no picture (such as what to install).
 namespace limber::results {
 
 /// One named curve over time.
