@@ -5,6 +5,9 @@
 
 namespace limber::contact {
 
+/// Of Hertz's impact, over its depth / speed [-].
+inline constexpr double kHertzDuration = 2.9433;
+
 /// Central impact of two free rigid bodies without damping.
 struct ImpactEstimate {
   double duration = 0.0;    ///< T_c [s]

@@ -12,6 +12,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/overloaded.hpp"
 #include "limber/common/restitution.hpp"
+#include "limber/contact/law/impact_estimate.hpp"
 #include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
 
@@ -62,9 +63,8 @@ PairModuli scale(const PairModuli& moduli, double by) {
 }
 
 double find_default_modulus(double mass, double radius) {
-  constexpr double kDuration = 2.9433;  // over depth / speed, of Hertz's impact
-  constexpr double kDepth = 0.1;        // over the radius
-  const double turn = kDuration / kImpactDuration;
+  constexpr double kDepth = 0.1;  // over the radius
+  const double turn = kHertzDuration / kImpactDuration;
   return 15.0 / 16.0 * turn * turn * mass / (std::sqrt(kDepth) * radius);
 }
 

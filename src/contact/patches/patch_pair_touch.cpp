@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "limber/contact/law/impact_estimate.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/patches/patch_slip.hpp"
 #include "limber/contact/patches/pressure_sum.hpp"
@@ -126,7 +127,7 @@ joints::TouchReach PatchPair::find_reach_B() const {
 }
 
 // The way in which the energy of both bodies is stored, over the speed, times
-// 2.9433 of balls, exactly, and 3 of others: pi of flats, less of edges.
+// kHertzDuration of balls, and 3 of others: pi of flats, less of edges.
 double PatchPair::find_duration(const PairBodies& bodies,
                                 const joints::PairTouch& touch,
                                 double inverse_mass) const {
@@ -145,7 +146,7 @@ double PatchPair::find_duration(const PairBodies& bodies,
     const double way = 0.5 * (long_way + short_way);
     (store(way) > energy ? long_way : short_way) = way;
   }
-  return (law_.is_point() ? 2.9433 : 3.0) * long_way / speed;
+  return (law_.is_point() ? kHertzDuration : 3.0) * long_way / speed;
 }
 
 double PatchPair::begin_touch(const PairBodies& bodies, double t,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/contact/potential/elliptic_integral.hpp"
+
 namespace limber::contact {
 namespace {
 
@@ -17,24 +19,14 @@ struct ContactEllipse {
 ContactEllipse find_contact_ellipse(double log_ratio) {
   const double side = std::exp(-log_ratio);
   const double square = 1.0 - side * side;  // e^2
-  // K and E by the arithmetic-geometric mean.
-  double a = 1.0;
-  double b = side;
-  double power = 0.5;
-  double sum = power * square;
-  while (a - b > 1e-15 * a) {
-    const double c = 0.5 * (a - b);
-    const double next = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = next;
-    power *= 2.0;
-    sum += power * c * c;
-  }
-  const double K = 0.5 * std::numbers::pi / a;
-  const double E = K * (1.0 - sum);
-  const double root = std::sqrt((E / (side * side) - K) / (K * sum));
+  const EllipticIntegral integral = find_elliptic_integral(side);
+  const double K = 0.5 * std::numbers::pi / integral.mean;
+  const double E = K * (1.0 - integral.defect);
+  const double root =
+      std::sqrt((E / (side * side) - K) / (K * integral.defect));
   return {0.5 * (root + 1.0 / root),
-          0.5 * std::numbers::pi / K * std::sqrt(2.0 * root * sum / square)};
+          0.5 * std::numbers::pi / K *
+              std::sqrt(2.0 * root * integral.defect / square)};
 }
 
 }  // namespace

@@ -4,33 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/contact/potential/elliptic_integral.hpp"
+
 namespace limber::contact {
 namespace {
 
 // Longer places count as this long [-].
 constexpr double kMostElongation = 1e12;
-
-struct Ellipse {
-  double mean = 1.0;   // of 1 and k', arithmetic-geometric: K = pi / (2 mean)
-  double ratio = 1.0;  // E / K
-};
-
-// @param side k' in (0, 1)
-Ellipse find_ellipse(double side) {
-  double a = 1.0;
-  double b = side;
-  double power = 0.5;
-  double sum = power * (1.0 - side * side);
-  while (a - b > 1e-15 * a) {
-    const double c = 0.5 * (a - b);
-    const double next = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = next;
-    power *= 2.0;
-    sum += power * c * c;
-  }
-  return {a, 1.0 - sum};
-}
 
 }  // namespace
 
@@ -54,11 +34,11 @@ ShapeFactor find_shape_factor(double u) {
   const double b = 2.0 * std::min(u, kMostElongation) - 1.0;
   const double square = b + std::sqrt(b * b - 1.0);  // s^2
   const double side = 1.0 / std::sqrt(square);       // k'
-  const Ellipse ellipse = find_ellipse(side);
+  const EllipticIntegral integral = find_elliptic_integral(side);
   const double m = 1.0 - side * side;
-  const double by_log_s = 0.5 - (ellipse.ratio - side * side) / m;
+  const double by_log_s = 0.5 - (1.0 - integral.defect - side * side) / m;
   const double log_u_by_log_s = 2.0 * (square - 1.0) / (square + 1.0);
-  return {ellipse.mean / std::sqrt(side), by_log_s / log_u_by_log_s};
+  return {integral.mean / std::sqrt(side), by_log_s / log_u_by_log_s};
 }
 
 Elongation find_elongation(const Matrix3& S, const Vector3& n) {
