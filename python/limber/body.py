@@ -9,7 +9,7 @@ from .errors import LimberWarning
 
 
 def reduce(mesh, *, youngs_modulus, poisson_ratio, density, interfaces=(),
-           clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=1.0,
+           clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=None,
            second_order=False, stress=False):
     """Reduces a mesh or geometry to a body that no longer needs the mesh.
 
@@ -17,7 +17,8 @@ def reduce(mesh, *, youngs_modulus, poisson_ratio, density, interfaces=(),
     ``interfaces``: groups of the mesh that become interfaces; ``clamps``: that
     are fixed; ``modes``: number of eigenmodes, or "auto"; ``rows``: nodes to
     keep; ``size`` [mesh units] and ``order`` of elements when a geometry is
-    meshed; ``unit``: of the mesh [m]; ``second_order``: with the tables that
+    meshed; ``unit``: of the mesh, [m] or "m", "cm", "mm", "in", "ft" (default:
+    the file's, where it states one, else 1 m); ``second_order``: with the tables that
     level nonlinear needs; ``stress``: with stress modes.
 
     Returns a :class:`ReducedBody`.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include "arrays.hpp"
 #include "interruption.hpp"
 #include "limber/app/options/mesh_options.hpp"
@@ -6,7 +8,9 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/describe.hpp"
 #include "limber/app/run/library_lock.hpp"
+#include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/length_unit.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 
@@ -22,6 +26,21 @@ ReducedBody& body_of(const py::object& self) {
   return self.cast<ReducedBody&>();
 }
 
+/// @param unit a number [m], one of its names, or None for the file's
+/// @throws InputError if it is no unit.
+double read_unit(const py::object& unit) {
+  if (unit.is_none()) return 0.0;
+  const std::string text = py::str(unit);
+  const std::optional<double> metres = parse_length_unit(text);
+  if (!metres) {
+    throw InputError(
+        fmt::format("unit is '{}'; expected {}, or None for the "
+                    "file's",
+                    echo(text), kLengthUnits));
+  }
+  return *metres;
+}
+
 flexbody::Recipe make_recipe(const py::dict& wish) {
   app::MeshOptions options;
   options.file = wish["mesh"].cast<std::string>();
@@ -30,7 +49,7 @@ flexbody::Recipe make_recipe(const py::dict& wish) {
                       wish["density"].cast<double>()};
   options.size = wish["size"].cast<double>();
   options.order = wish["order"].cast<int>();
-  options.unit = wish["unit"].cast<double>();
+  options.unit = read_unit(wish["unit"]);
   flexbody::Recipe recipe = app::make_recipe(options);
   app::ModeOptions modes;
   modes.count = py::str(wish["modes"]);

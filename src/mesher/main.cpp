@@ -45,11 +45,18 @@ Number read_number(const char* text) {
   return value;
 }
 
+/// Limber shows it while it waits.
+void print_count(double elements) {
+  if (elements < 1.0) return;
+  std::printf("%s%.0f\n", limber::fem::kExpectedElements.data(), elements);
+}
+
 MeshReply make_reply(limber::fem::GmshSession& session, const char* file,
                      const limber::fem::MeshOptions& options) {
   MeshReply reply;
   try {
-    limber::fem::RawMesh raw = limber::fem::make_mesh(session, file, options);
+    limber::fem::RawMesh raw =
+        limber::fem::make_mesh(session, file, options, print_count);
     reply.mesh = std::move(raw.mesh);
     reply.notices = std::move(raw.notices);
   } catch (const limber::InputError& error) {

@@ -17,8 +17,8 @@ namespace limber::flexbody {
 fem::TracedMesh read_source(const MeshSource& source,
                             const Progress& progress) {
   report(progress, "reading the mesh", 0.0);
-  return fem::read_traced_mesh(source.file,
-                               {source.size, source.order, source.unit});
+  return fem::read_traced_mesh(
+      source.file, {source.size, source.order, source.unit}, progress);
 }
 
 fem::Elasticity find_elasticity(MaterialLaw law) {

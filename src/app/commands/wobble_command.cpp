@@ -24,7 +24,7 @@ struct WobbleOptions {
   std::string force;
   double size = 0.0;
   int order = 0;
-  double unit = 1.0;
+  double unit = 0.0;
   ModeOptions modes;
   double step = 0.0;
   double duration = 0.0;
@@ -178,7 +178,7 @@ void add_wobble(CLI::App& app, Action& action) {
                       "Element size when meshing geometry [mesh units]");
   command->add_option("--order", options->order,
                       "Element order when meshing geometry: 1, 2 or 3");
-  command->add_option("--unit", options->unit, "Metres per mesh unit");
+  add_unit(*command, options->unit);
   add_out(*command, options->out, "<mesh name>");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
+#include "limber/app/options/shared_options.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::app {
@@ -28,7 +30,7 @@ void check(const MeshOptions& options) {
           fmt::format("--density is {} kg/m^3; expected > 0", m.density));
   require(options.size >= 0.0,
           fmt::format("--size is {}; expected >= 0", options.size));
-  require(options.unit > 0.0,
+  require(options.unit >= 0.0 && std::isfinite(options.unit),
           fmt::format("--unit is {} m; expected > 0", options.unit));
   require(options.order >= 0 && options.order <= 3,
           fmt::format("--order is {}; expected 1, 2 or 3", options.order));
@@ -50,13 +52,13 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command.add_option("--density", options.material.density, "rho [kg/m^3]")
       ->required();
   command.add_option("--size", options.size,
-                     "Element size when meshing geometry [mesh units]");
+                     "Element size when meshing geometry [mesh units, of "
+                     "STEP and IGES millimetres]");
   command.add_option(
       "--order", options.order,
       "Element order when meshing geometry: 1, 2 or 3; 2 also makes a "
       "finished mesh of first order one of second order");
-  command.add_option("--unit", options.unit,
-                     "Metres per mesh unit, e.g. 0.001 for millimetres");
+  add_unit(command, options.unit);
 }
 
 flexbody::Recipe make_recipe(const MeshOptions& options) {

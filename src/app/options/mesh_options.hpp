@@ -17,7 +17,7 @@ struct MeshOptions {
   flexbody::Material material;
   double size = 0.0;  ///< element size [mesh units]; 0: the file's
   int order = 0;      ///< of elements, 1 to 3; 0: the file's, else 2 [-]
-  double unit = 1.0;  ///< metres per mesh unit [m]
+  double unit = 0.0;  ///< metres per mesh unit [m]; 0: the file's, or 1
 };
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);

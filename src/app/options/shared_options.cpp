@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/options/shared_options.hpp"
 
+#include <fmt/format.h>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/length_unit.hpp"
+
 namespace limber::app {
 
 CLI::Option* add_scenario(CLI::App& command, std::string& file) {
@@ -38,6 +43,23 @@ std::filesystem::path find_results_folder(const std::string& out,
                                           const std::string& default_name) {
   if (!out.empty()) return out;
   return std::filesystem::path("out") / default_name;
+}
+
+CLI::Option* add_unit(CLI::App& command, double& metres) {
+  const auto read = [&metres](const std::string& text) {
+    const std::optional<double> found = parse_length_unit(text);
+    if (!found) {
+      throw CLI::ValidationError(
+          fmt::format("--unit is '{}'; expected {}", echo(text), kLengthUnits));
+    }
+    metres = *found;
+  };
+  return command
+      .add_option_function<std::string>(
+          "--unit", read,
+          "Length unit of the mesh: m, cm, mm, in, ft or metres (default: the "
+          "file's, where it states one, else m)")
+      ->type_name("UNIT");
 }
 
 CLI::Option* add_json(CLI::App& command, bool& is_asked) {

@@ -27,6 +27,9 @@ CLI::Option* add_out(CLI::App& command, std::string& folder,
 std::filesystem::path find_results_folder(const std::string& out,
                                           const std::string& default_name);
 
+/// --unit of a mesh: a name or a number [m]; `metres` stays without it.
+CLI::Option* add_unit(CLI::App& command, double& metres);
+
 /// --json
 CLI::Option* add_json(CLI::App& command, bool& is_asked);
 

@@ -189,7 +189,10 @@ class Listener {
     std::array<pollfd, 2> polls{
         {{pipes_[0]->out.get(), POLLIN, 0}, {pipes_[1]->out.get(), POLLIN, 0}}};
     if (poll(polls.data(), polls.size(), milliseconds) <= 0) return;
-    if (polls[0].revents != 0) take(pipes_[0]->out, end_.output);
+    if (polls[0].revents != 0) {
+      take(pipes_[0]->out, end_.output);
+      if (task_.on_output) task_.on_output(end_.output);
+    }
     if (polls[1].revents != 0) take(pipes_[1]->out, end_.reply);
     constexpr std::size_t kKept = 4000;
     if (end_.output.size() > 2 * kKept) {

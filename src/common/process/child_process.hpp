@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace limber {
@@ -19,6 +21,8 @@ struct ChildTask {
   /// False for a program under a sanitizer, which reserves a huge address
   /// space.
   bool is_address_space_limited = true;
+  /// Called with the end of its output whenever there is more. May be empty.
+  std::function<void(std::string_view output)> on_output;
 };
 
 /// How a child ended.

@@ -16,6 +16,7 @@
 #include "limber/fem/gmsh/bulk_mesh.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
 #include "limber/fem/gmsh/mesh_losses.hpp"
+#include "limber/fem/gmsh/mesh_size.hpp"
 #include "limber/fem/gmsh/promotion.hpp"
 #include "limber/fem/gmsh/raw_block.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
@@ -53,14 +54,19 @@ bool has_solids() {
   return !types.empty();
 }
 
-void mesh_geometry(const MeshOptions& options) {
+void mesh_geometry(const std::filesystem::path& file,
+                   const MeshOptions& options, const CountNote& note) {
+  check_element_size(file, options.size);
   if (options.size > 0.0) {
     gmsh::option::setNumber("Mesh.MeshSizeMin", options.size);
     gmsh::option::setNumber("Mesh.MeshSizeMax", options.size);
   }
   if (options.order > 0)
     gmsh::option::setNumber("Mesh.ElementOrder", options.order);
-  if (!has_solids()) gmsh::model::mesh::generate(3);
+  if (has_solids()) return;
+  gmsh::model::mesh::generate(2);
+  if (note) note(estimate_element_count());
+  gmsh::model::mesh::generate(3);
 }
 
 void append_entity(RawBlocks& blocks, int dimension, int entity, int region) {
@@ -222,12 +228,32 @@ void straighten_curved(const std::filesystem::path& file,
   raw.mesh = std::move(straight);
 }
 
+/// The unit to read with: that of the options, else the file's, else 1 m. A
+/// notice is added if both differ.
+double choose_unit(const std::filesystem::path& file, double wanted,
+                   double stated, std::vector<std::string>& notices) {
+  constexpr double kSame = 1e-6;
+  if (wanted == 0.0) return stated > 0.0 ? stated : 1.0;
+  if (stated > 0.0 && std::abs(wanted / stated - 1.0) > kSame)
+    notices.push_back(fmt::format(
+        "{}: the part is {:g} times as large as its file says, because it is "
+        "read with unit {:g} m, which the mesh options set; without unit, "
+        "lengths are those of the file.",
+        file.string(), wanted / stated, wanted));
+  return wanted;
+}
+
 RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
-                      MeshFileKind kind, const MeshOptions& options) {
+                      MeshFileKind kind, MeshOptions options,
+                      const CountNote& note) {
+  std::optional<UnvContent> content;
+  if (kind == MeshFileKind::universal) content = check_unv(file);
+  std::vector<std::string> notices;
+  options.unit =
+      choose_unit(file, options.unit,
+                  content ? content->unit : find_stated_unit(file), notices);
   if (kind == MeshFileKind::bulk_data)
     return read_bulk_mesh(file, options.unit);
-  std::optional<UnvContent> content;
-  if (kind == MeshFileKind::universal) content = check_unv(file, options.unit);
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);
@@ -235,7 +261,7 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
   gmsh::option::setNumber("General.NumThreads", 1);
   RawMesh raw;
   if (is_geometry)
-    guarded(session, file, "mesh", [&] { mesh_geometry(options); });
+    guarded(session, file, "mesh", [&] { mesh_geometry(file, options, note); });
   guarded(session, file, "use", [&] {
     raw.mesh = take_mesh(file, options, is_geometry);
     if (is_geometry) {
@@ -246,19 +272,17 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
       raw.notices = find_mesh_losses(session, file, raw.mesh);
     }
   });
-  if (content)
-    raw.notices.insert(raw.notices.end(), content->notices.begin(),
-                       content->notices.end());
+  raw.notices.insert(raw.notices.end(), notices.begin(), notices.end());
   return raw;
 }
 
 }  // namespace
 
 RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
-                  const MeshOptions& options) {
+                  const MeshOptions& options, const CountNote& note) {
   const MeshFileKind kind = find_mesh_file_kind(file);
   check_mesh_options(file, kind, options);
-  RawMesh raw = make_as_it_is(session, file, kind, options);
+  RawMesh raw = make_as_it_is(session, file, kind, options, note);
   // A finished mesh, also one that a geometry merges.
   if (options.order == 2) promote_to_second_order(raw.mesh);
   return raw;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "limber/fem/mesh/mesh.hpp"
 #include "limber/fem/mesh/mesh_options.hpp"
@@ -19,9 +20,13 @@ namespace limber::fem {
 
 class GmshSession;
 struct RawMesh;
+/// Called with the number of elements that a geometry's mesh will have about;
+/// 0 if that is not known. May be empty.
+using CountNote = std::function<void(double elements)>;
 /// Meshes the file in this session.
 [[nodiscard]] RawMesh make_mesh(GmshSession& session,
                                 const std::filesystem::path& file,
-                                const MeshOptions& options);
+                                const MeshOptions& options,
+                                const CountNote& note = {});
 
 }  // namespace limber::fem

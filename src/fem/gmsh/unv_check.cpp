@@ -45,8 +45,8 @@ std::vector<double> read_numbers(std::string_view line) {
 
 class UnvChecker {
  public:
-  UnvChecker(const std::filesystem::path& file, double unit)
-      : name_(file.string()), unit_(unit), text_(read_input(file, kMeshInput)) {
+  explicit UnvChecker(const std::filesystem::path& file)
+      : name_(file.string()), text_(read_input(file, kMeshInput)) {
     for (std::size_t start = 0; start < text_.size();) {
       const std::size_t end = std::min(text_.find('\n', start), text_.size());
       lines_.push_back(std::string_view(text_).substr(start, end - start));
@@ -91,7 +91,7 @@ class UnvChecker {
     if (dataset == 2411) check_nodes(end);
     if (dataset == 2412) check_elements(end);
     if (dataset == 2420) read_systems(end);
-    if (dataset == 164) check_unit(end);
+    if (dataset == 164) read_unit(end);
     constexpr std::array kOld = {15, 71, 780, 781};
     if (is_one_of(kOld, dataset))
       fail(line_ - 1, fmt::format("dataset {} is not read. Expected nodes in "
@@ -164,22 +164,14 @@ class UnvChecker {
   }
 
   /// The second record begins with the file's units per metre.
-  void check_unit(std::size_t end) {
+  void read_unit(std::size_t end) {
     if (line_ + 1 >= end) return;
     const std::vector<double> factors = read_numbers(lines_[line_ + 1]);
-    constexpr double kSame = 1e-6;
-    if (factors.empty() || !(factors[0] > 0.0) ||
-        std::abs(factors[0] * unit_ - 1.0) < kSame)
-      return;
-    content_.notices.push_back(
-        fmt::format("{}: the file says that its length unit is {:g} m (dataset "
-                    "164); it is read with unit {:g} m, which the mesh options "
-                    "set.",
-                    name_, 1.0 / factors[0], unit_));
+    if (factors.empty() || !(factors[0] > 0.0)) return;
+    content_.unit = 1.0 / factors[0];
   }
 
   std::string name_;
-  double unit_;
   std::string text_;
   std::vector<std::string_view> lines_;
   std::size_t line_ = 0;
@@ -190,8 +182,8 @@ class UnvChecker {
 
 }  // namespace
 
-UnvContent check_unv(const std::filesystem::path& file, double unit) {
-  return UnvChecker(file, unit).check();
+UnvContent check_unv(const std::filesystem::path& file) {
+  return UnvChecker(file).check();
 }
 
 }  // namespace limber::fem

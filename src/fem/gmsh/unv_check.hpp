@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace limber::fem {
 
@@ -12,15 +10,14 @@ namespace limber::fem {
 struct UnvContent {
   std::size_t nodes = 0;     ///< dataset 2411
   std::size_t elements = 0;  ///< dataset 2412
-  std::vector<std::string> notices;
+  double unit = 0.0;         ///< dataset 164 [m]; 0: none
 };
 
 /// Reads what Gmsh passes over in silence. Format: SDRC, "Universal file
-/// datasets" 164, 2411, 2412, 2420. @param unit that of the mesh [m]
+/// datasets" 164, 2411, 2412, 2420.
 /// @throws InputError with file and line of a dataset that does not end, older
 /// datasets of nodes and elements, elements that are neither solids nor marks
 /// of faces and edges, and nodes in a coordinate system of their own
-[[nodiscard]] UnvContent check_unv(const std::filesystem::path& file,
-                                   double unit);
+[[nodiscard]] UnvContent check_unv(const std::filesystem::path& file);
 
 }  // namespace limber::fem

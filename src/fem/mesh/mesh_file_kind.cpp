@@ -157,14 +157,22 @@ MeshFileKind find_mesh_file_kind(const std::filesystem::path& file) {
                       : fmt::format("; it may be a {}", other)));
 }
 
+double find_stated_unit(const std::filesystem::path& file) {
+  constexpr double kMillimetre = 1e-3;
+  const Format& format = find_format(file);
+  const bool is_converted = format.is_it == is_step || format.is_it == is_iges;
+  return is_converted ? kMillimetre : 0.0;
+}
+
 void check_mesh_options(const std::filesystem::path& file, MeshFileKind kind,
                         const MeshOptions& options) {
   const std::string name = file.string();
   std::vector<std::string> problems;
-  if (!(options.unit > 0.0) || !std::isfinite(options.unit))
+  if (!(options.unit >= 0.0) || !std::isfinite(options.unit))
     problems.push_back(
-        fmt::format("{}: length unit {} m; expected a positive number.", name,
-                    options.unit));
+        fmt::format("{}: length unit {} m; expected a positive number, or 0 "
+                    "for the file's own.",
+                    name, options.unit));
   if (!(options.size >= 0.0) || !std::isfinite(options.size))
     problems.push_back(fmt::format(
         "{}: mesh size {}; expected a positive number, or 0 for the file's "

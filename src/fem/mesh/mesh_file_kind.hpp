@@ -21,6 +21,11 @@ enum class MeshFileKind { mesh, bulk_data, universal, geometry };
 [[nodiscard]] MeshFileKind find_mesh_file_kind(
     const std::filesystem::path& file);
 
+/// The length unit that a geometry's coordinates have by its file [m]; 0 if it
+/// states none. STEP and IGES state theirs, and OpenCASCADE converts them to
+/// millimetres.
+[[nodiscard]] double find_stated_unit(const std::filesystem::path& file);
+
 /// All known extensions, in lower case.
 inline constexpr std::array<std::string_view, 13> kMeshFileExtensions = {
     ".msh", ".geo", ".step", ".stp", ".brep", ".iges", ".igs",

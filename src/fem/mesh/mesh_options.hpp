@@ -4,11 +4,13 @@
 namespace limber::fem {
 
 struct MeshOptions {
-  double size = 0.0;  ///< element size [mesh units]; 0: the file's
+  /// Element size; 0: the file's [mesh units, of STEP and IGES millimetres].
+  double size = 0.0;
   /// 1 to 3; 0: the file's, else 2. Of a finished mesh 2 alone: nodes in the
   /// middle of the edges, if it is of first order [-].
   int order = 0;
-  double unit = 1.0;  ///< metres per mesh unit [m]
+  /// Metres per mesh unit; 0: the file's, where it states one, else 1 [m].
+  double unit = 0.0;
 };
 
 }  // namespace limber::fem

@@ -16,9 +16,10 @@ void complete_mesh(Mesh& mesh) {
 }
 
 TracedMesh read_traced_mesh(const std::filesystem::path& file,
-                            const MeshOptions& options, const Mesher& mesher) {
+                            const MeshOptions& options, const Mesher& mesher,
+                            const Progress& progress) {
   check_mesh_options(file, find_mesh_file_kind(file), options);
-  MeshReply reply = run_mesher(mesher, file, options);
+  MeshReply reply = run_mesher(mesher, file, options, progress);
   complete_mesh(reply.mesh);
   return {std::move(reply.mesh), std::move(reply.notices),
           std::move(reply.files), reply.is_repeatable};
@@ -30,10 +31,11 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options,
 }
 
 TracedMesh read_traced_mesh(const std::filesystem::path& file,
-                            const MeshOptions& options) {
+                            const MeshOptions& options,
+                            const Progress& progress) {
   // Problems of the user's file are reported before those of the installation.
   check_mesh_options(file, find_mesh_file_kind(file), options);
-  return read_traced_mesh(file, options, find_mesher());
+  return read_traced_mesh(file, options, find_mesher(), progress);
 }
 
 Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {

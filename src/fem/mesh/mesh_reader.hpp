@@ -39,10 +39,12 @@ struct TracedMesh {
 /// As read_mesh.
 [[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
                                           const MeshOptions& options,
-                                          const Mesher& mesher);
+                                          const Mesher& mesher,
+                                          const Progress& progress = {});
 /// By find_mesher().
 [[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
-                                          const MeshOptions& options = {});
+                                          const MeshOptions& options = {},
+                                          const Progress& progress = {});
 
 /// Finds the boundary and checks the invariants of Mesh.
 /// @throws InputError naming element and file

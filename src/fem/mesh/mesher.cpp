@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/parse_number.hpp"
 #include "limber/common/process/child_process.hpp"
 #include "limber/common/process/helper_program.hpp"
 
@@ -89,14 +90,43 @@ std::string describe_output(const ChildEnd& end) {
   return output.empty() ? "It printed nothing." : "Its last output: " + output;
 }
 
+/// The number of elements that the mesher expects, if it has said so.
+std::optional<double> find_expected(std::string_view output) {
+  const std::size_t at = output.rfind(kExpectedElements);
+  if (at == std::string_view::npos) return std::nullopt;
+  output.remove_prefix(at + kExpectedElements.size());
+  return parse_number(output.substr(0, output.find('\n')));
+}
+
+void report_count(std::string_view output, const Progress& progress) {
+  const std::optional<double> count = find_expected(output);
+  if (!count) return;
+  report(progress, fmt::format("meshing, about {:.2g} elements", *count), 0.0);
+}
+
+/// What a mesh of its size needs, and which size has a tenth of it.
+std::string describe_count(const ChildEnd& end, const MeshOptions& options) {
+  const std::optional<double> count = find_expected(end.output);
+  if (!count) return "";
+  std::string text =
+      fmt::format(" About {:.2g} elements were expected", *count);
+  if (options.size > 0.0) {
+    text += fmt::format("; a size of {:.2g} in place of {:g} has a tenth",
+                        options.size * std::cbrt(10.0), options.size);
+  }
+  return text + '.';
+}
+
 /// Why there is no mesh.
-std::string explain(const Mesher& mesher, const ChildEnd& end) {
+std::string explain(const Mesher& mesher, const MeshOptions& options,
+                    const ChildEnd& end) {
   const std::string memory = fmt::format(
       "more than the {:.3g} GiB of memory that it may take. Correct the file, "
       "or "
       "allow more by LIMBER_MESH_MEMORY (in GiB)",
       static_cast<double>(mesher.memory) / kGibibyte);
-  const std::string output = describe_output(end);
+  const std::string output =
+      describe_output(end) + describe_count(end, options);
   if (end.is_out_of_time) {
     return fmt::format(
         "meshing did not end within {:.6g} s, and was ended. Correct the file, "
@@ -104,7 +134,9 @@ std::string explain(const Mesher& mesher, const ChildEnd& end) {
         "allow more by LIMBER_MESH_SECONDS. {}",
         mesher.seconds, output);
   }
-  if (end.is_reply_too_long) return "its mesh needs " + memory + ".";
+  if (end.is_reply_too_long) {
+    return "its mesh needs " + memory + "." + describe_count(end, options);
+  }
   if (end.exit_status == kMesherOutOfMemory) {
     return fmt::format("meshing needs {}. {}", memory, output);
   }
@@ -166,7 +198,7 @@ std::string identify_mesher() {
 }
 
 MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
-                     const MeshOptions& options) {
+                     const MeshOptions& options, const Progress& progress) {
   const std::filesystem::path place = std::filesystem::absolute(file);
   const ChildEnd end = run_child(
       {mesher.program,
@@ -175,11 +207,12 @@ MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
        make_environment(),
        mesher.seconds,
        mesher.memory,
-       kIsAddressSpaceLimited});
+       kIsAddressSpaceLimited,
+       [&](std::string_view output) { report_count(output, progress); }});
   if (end.exit_status != 0 || end.signal != 0 || end.is_out_of_time ||
       end.is_reply_too_long || end.reply.empty()) {
     throw InputError(
-        fmt::format("{}: {}", file.string(), explain(mesher, end)));
+        fmt::format("{}: {}", file.string(), explain(mesher, options, end)));
   }
   MeshReply reply;
   try {

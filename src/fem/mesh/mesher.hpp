@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "limber/common/progress.hpp"
 #include "limber/fem/mesh/mesh_options.hpp"
 #include "limber/fem/mesh/mesh_wire.hpp"
 
@@ -29,12 +31,18 @@ struct Mesher {
 /// environment. Empty if there is no mesher.
 [[nodiscard]] std::string identify_mesher();
 
-/// Meshes the file in a mesher process. @throws InputError naming the file and
+/// Meshes the file in a mesher process, and reports how many elements it
+/// expects as soon as that is known. @throws InputError naming the file and
 /// the cause: a problem of the file, an exceeded limit, a forbidden action, or
 /// how the mesher ended, with its last output.
 [[nodiscard]] MeshReply run_mesher(const Mesher& mesher,
                                    const std::filesystem::path& file,
-                                   const MeshOptions& options);
+                                   const MeshOptions& options,
+                                   const Progress& progress = {});
+
+/// What its line of output begins with that says how many elements it expects.
+inline constexpr std::string_view kExpectedElements =
+    "limber-mesh: expected elements: ";
 
 /// Exit statuses of the mesher with a specific meaning.
 inline constexpr int kMesherRefused = 40;  ///< its output says why

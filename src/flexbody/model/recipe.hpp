@@ -37,7 +37,7 @@ struct MeshSource {
   std::filesystem::path file;  ///< .msh, .geo or .step/.stp
   double size = 0.0;  ///< target element size [mesh units]; 0: the file's
   int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's, or 2 [-]
-  double unit = 1.0;  ///< metres per mesh unit [m]
+  double unit = 0.0;  ///< metres per mesh unit [m]; 0: the file's, or 1
 };
 
 /// Weights of a selection's nodes in a load or an average.

@@ -7,7 +7,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/length_unit.hpp"
 #include "limber/common/names.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/place_reader.hpp"
@@ -17,18 +19,15 @@ namespace {
 
 using flexbody::InterfaceRequest;
 
-const std::map<std::string, double> kUnits = {
-    {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"in", 0.0254}, {"ft", 0.3048}};
-
 void read_unit(XmlElement& element, double& unit) {
-  const std::optional<std::string> name = element.text("unit");
-  if (!name) return;
-  const auto found = kUnits.find(*name);
-  if (found != kUnits.end()) {
-    unit = found->second;
-    return;
+  const std::optional<std::string> text = element.text("unit");
+  if (!text) return;
+  const std::optional<double> metres = parse_length_unit(*text);
+  if (!metres) {
+    element.fail(
+        fmt::format("has unit=\"{}\"; expected {}", echo(*text), kLengthUnits));
   }
-  unit = element.number("unit", kPositive).value_or(1.0);
+  unit = metres.value_or(unit);
 }
 
 void read_mesh(XmlElement& element, const std::filesystem::path& folder,

@@ -23,7 +23,7 @@ using testing::MshText;
 using testing::write_file;
 
 std::vector<std::string> notices_of(const std::filesystem::path& file,
-                                    double unit = 1.0) {
+                                    double unit = 0.0) {
   return read_traced_mesh(file, {.unit = unit}).notices;
 }
 
@@ -123,8 +123,14 @@ TEST(MeshLosses, AnotherLengthUnitThanTheFilesIsReported) {
                                "    -1\n   164\n         5mm (milli newton)"
                                "               2\n  1.0D+03  1.0D+03  1.0D+00\n"
                                "  0.0D+00\n    -1\n"));
-  EXPECT_THAT(notices_of(file), ElementsAre(HasSubstr("unit is 0.001 m")));
+  EXPECT_THAT(notices_of(file, 1.0),
+              ElementsAre(HasSubstr("1000 times as large as its file says")));
   EXPECT_THAT(notices_of(file, 1e-3), IsEmpty());
+  EXPECT_THAT(notices_of(file), IsEmpty());
+  const double read = read_traced_mesh(file).mesh.size().maxCoeff();
+  const double metres =
+      read_traced_mesh(file, {.unit = 1.0}).mesh.size().maxCoeff();
+  EXPECT_NEAR(read, 1e-3 * metres, 1e-15);
 }
 
 TEST(MeshLosses, AGeometryMustNotMergeADeck) {

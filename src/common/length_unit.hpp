@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace limber {
+
+/// What a message expects of a length unit.
+inline constexpr std::string_view kLengthUnits =
+    "m, cm, mm, in, ft, or a positive number of metres";
+
+/// Metres of a length unit. Empty unless it is one of kLengthUnits.
+[[nodiscard]] std::optional<double> parse_length_unit(std::string_view text);
+
+}  // namespace limber
