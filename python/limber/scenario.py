@@ -9,7 +9,7 @@ from . import _core
 from .errors import LimberWarning
 from .linear import LinearModel
 from .run import Run, StaticRun, finish
-from .toml import to_toml
+from .toml import from_toml, is_of_robot, look_up, put, read_toml, to_toml
 
 
 def load(file, set=None, unset=(), fidelity=None):
@@ -75,9 +75,10 @@ def _identify(law):
 class Scenario:
     """A scenario and its robot, checked; see :func:`load`.
 
-    Keys are set by their dotted paths: ``scenario["time.step"] = 1e-4``, and
-    removed by ``del scenario["time.steps"]``. An invalid value
-    raises InputError, and leaves the scenario unchanged.
+    Keys are set by their dotted paths: ``scenario["time.step"] = 1e-4``, read
+    by ``scenario["time.step"]`` and removed by ``del scenario["time.steps"]``.
+    An invalid value raises InputError, and leaves the scenario unchanged; to
+    read a key that is neither in the file nor set raises KeyError.
     """
 
     def __init__(self, file, set=None, unset=(), fidelity=None):
@@ -85,6 +86,19 @@ class Scenario:
         self._settings = []
         self._fidelity = fidelity
         self._change([(path, None) for path in unset] + _to_settings(set))
+
+    def __getitem__(self, path):
+        given = dict(self._settings)
+        if given.get(path) is not None:
+            return from_toml(given[path])
+        tables = read_toml(self._file)
+        for key, text in self._settings:
+            if not is_of_robot(key, tables):
+                put(tables, key, text)
+        if is_of_robot(path, tables):
+            raise KeyError(f"{path} is a key of the robot's file, which is read "
+                           "here only where it was set")
+        return look_up(tables, path, self._file)
 
     def __setitem__(self, path, value):
         self.set({path: value})

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Python values as TOML, for keys of scenarios and studies."""
+"""Python values as TOML, for keys of scenarios and studies, and back."""
 
 import json
 import math
 import numbers
+import re
+import tomllib
 
 from .errors import InputError
 
@@ -58,3 +60,66 @@ def to_document(tables):
 def _to_lines(table):
     return "".join(f"{to_toml(str(key))} = {to_toml(value)}\n"
                    for key, value in table.items())
+
+
+def from_toml(text):
+    """The value of a key; text that is no TOML value, or has a comment, is itself."""
+    try:
+        value = tomllib.loads("value = " + text)["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+    return text if "#" in text and not isinstance(value, (str, list)) else value
+
+
+def read_toml(file):
+    """The tables of a file."""
+    with open(file, "rb") as stream:
+        return tomllib.load(stream)
+
+
+def is_of_robot(path, tables):
+    """Whether a path is a key of the robot's file, as in ``limber run --set``."""
+    parts = _split(path)
+    if parts[0] != "robot" or (len(parts) == 2 and parts[1] in ("base", "file")):
+        return False
+    return len(parts) > (4 if isinstance(tables.get("robot"), list) else 1)
+
+
+def look_up(tables, path, file):
+    """The value at a dotted path. Raises KeyError if it is not there."""
+    node = tables
+    for part in _split(path):
+        try:
+            node = node[_find_key(node, part)]
+        except (KeyError, IndexError, TypeError, ValueError):
+            raise KeyError(f"{path} is neither in {file} nor set; a run takes the "
+                           "default") from None
+    return node
+
+
+def put(tables, path, text):
+    """Sets the value at a path that ``limber run --set`` takes; None: removes it."""
+    *parts, last = _split(path)
+    node = tables
+    for part in parts:
+        key = _find_key(node, part)
+        if key == "robot" and isinstance(node.get(key), str):
+            node[key] = {"file": node[key]}
+        node = node.setdefault(key, {}) if isinstance(node, dict) else node[key]
+    if text is None:
+        del node[_find_key(node, last)]
+    else:
+        node[_find_key(node, last)] = from_toml(text)
+
+
+def _split(path):
+    """Parts of a path; those with dots are in double quotes."""
+    return [quoted or plain for quoted, plain in re.findall(r'"([^"]*)"|([^."]+)', path)]
+
+
+def _find_key(node, part):
+    """Of an array the index of the table with this name, or of the entry."""
+    if not isinstance(node, list):
+        return part
+    names = [one.get("name") if isinstance(one, dict) else None for one in node]
+    return names.index(part) if part in names else int(part)

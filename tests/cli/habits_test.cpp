@@ -162,6 +162,39 @@ TEST_F(Habits, CompletionKnowsCommandsOptionsAndLevels) {
               AllOf(HasSubstr("run\t"), HasSubstr("cache\t")));
 }
 
+TEST_F(Habits, CompletionKnowsTheKeysOfTheScenario) {
+  EXPECT_EQ(complete(place_, "run s.toml --set time.st"), "time.step\t\n");
+  EXPECT_THAT(complete(place_, "run s.toml --set robot.li"),
+              HasSubstr("robot.link."));
+  EXPECT_EQ(complete(place_, "run none.toml --set time.st"), "");
+  EXPECT_EQ(complete(place_, "run --set time.st"), "");
+}
+
+TEST_F(Habits, UnknownCommandsAndOptionsNameTheNearest) {
+  const auto refuse = [&](const std::string& arguments, const char* why,
+                          const char* help) {
+    const CommandResult result = place_.limber(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.errors, AllOf(HasSubstr(why), HasSubstr(help)));
+  };
+  refuse("rnu s.toml", "unknown command 'rnu'; did you mean 'run'?",
+         "(see limber --help)");
+  refuse("run s.toml --fidelty rigid",
+         "unknown option '--fidelty'; did you mean '--fidelity'?",
+         "(see limber run --help)");
+  refuse("run --resum=yes s.toml",
+         "unknown option '--resum'; did you mean '--resume'?",
+         "(see limber run --help)");
+  refuse("run --quite", "unknown option '--quite'; did you mean '--quiet'?",
+         "(see limber run --help)");
+  refuse("cache lst", "unknown command 'lst'; did you mean 'list'?",
+         "(see limber cache --help)");
+  refuse("--vresion", "unknown option '--vresion'; did you mean '--version'?",
+         "(see limber --help)");
+  refuse("", "subcommand", "(see limber --help)");
+}
+
 // limber as a command on the path, in a shell that has read our function.
 std::string in_folder() {
   return "mkdir -p bin && ln -sf '" LIMBER_COMMAND

@@ -152,6 +152,20 @@ TEST_F(AStudy, HasTheResponsesOfSingleRunsToTheBit) {
   }
 }
 
+TEST_F(AStudy, GivesARunWhoseFactorsCanBeSetAnew) {
+  (void)run("study.toml --out a --csv");
+  const auto probes = [&](const std::string& options) {
+    const CommandResult result = place_.limber("run --out r --json " + options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out)["probes"];
+  };
+  const std::string anew =
+      " --set load.push.force.0=7.5 --set robot.spring.coil.stiffness=33";
+  EXPECT_EQ(probes("--from a/study.sqlite#1" + anew), probes("s.toml" + anew));
+  EXPECT_NE(probes("--from a/study.sqlite#1" + anew),
+            probes("--from a/study.sqlite#1"));
+}
+
 TEST_F(AStudy, HasTheSameTableWithAnyNumberOfJobs) {
   (void)run("study.toml --out a --csv --jobs 1");
   (void)run("study.toml --out b --csv --jobs 5");

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import threading
 import time
+import tomllib
 
 import h5py
 import numpy
@@ -69,6 +70,30 @@ def test_keys_are_those_of_the_command(sled, tmp_path):
     assert scenario.settings[-1] == ("time.output_interval", None)
     with pytest.raises(limber.InputError):
         scenario["load.push.force"] = [1.0]
+
+
+def test_keys_are_read_from_the_file_and_from_what_was_set(sled):
+    scenario = limber.load(sled)
+    with open(sled, "rb") as stream:
+        tables = tomllib.load(stream)
+    assert scenario["time.step"] == tables["time"]["step"]
+    push = next(one for one in tables["load"] if one["name"] == "push")
+    assert scenario["load.push.force"] == push["force"]
+    scenario["load.push.force.1"] = 3.5
+    assert scenario["load.push.force"] == [push["force"][0], 3.5, push["force"][2]]
+    assert scenario["load.push.force.1"] == 3.5
+    scenario["output.pictures"] = False
+    assert scenario["output.pictures"] is False
+    assert scenario["output"] == {**tables.get("output", {}), "pictures": False}
+    scenario["robot.spring.coil.stiffness"] = 20.0
+    assert scenario["robot.spring.coil.stiffness"] == 20.0
+    del scenario["time.output_interval"]
+    for path in ["time.output_interval", "time.stp", "load.pull.force", "load.push.force.7",
+                 "time.step.0"]:
+        with pytest.raises(KeyError, match="neither in"):
+            scenario[path]
+    with pytest.raises(KeyError, match="robot's file"):
+        scenario["robot.spring.coil.damping"]
 
 
 def test_wrong_keys_name_the_nearest_and_leave_the_scenario(sled):

@@ -179,10 +179,12 @@ void add_linearize(CLI::App& app, Action& action) {
                       "(default: start)");
   add_list(*command, "--inputs", options->selection.inputs,
            "Names of inputs, separated by commas (default: all)")
+      ->type_name("INPUTS")
       ->allow_extra_args(false);
   add_list(*command, "--outputs", options->selection.outputs,
            "Names of probes or their columns, separated by commas (default: "
            "all)")
+      ->type_name("PROBES")
       ->allow_extra_args(false);
   command
       ->add_option("--states", options->states,

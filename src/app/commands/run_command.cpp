@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -53,10 +54,15 @@ StudiedRun find_run(const RunOptions& options) {
   return find_studied_run(options.from);
 }
 
-/// The study's values, and then those of the command line.
+/// The study's values, except those that the command line sets anew.
 scene::Overrides merge(scene::Overrides studied,
                        const scene::Overrides& given) {
   if (given.fidelity) studied.fidelity = given.fidelity;
+  std::erase_if(studied.settings, [&](const scene::Setting& old) {
+    return std::any_of(
+        given.settings.begin(), given.settings.end(),
+        [&](const scene::Setting& set) { return set.path == old.path; });
+  });
   studied.settings.insert(studied.settings.end(), given.settings.begin(),
                           given.settings.end());
   return studied;

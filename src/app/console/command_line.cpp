@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limber/app/console/completion.hpp"
 #include "limber/app/console/exit_status.hpp"
@@ -15,19 +17,73 @@
 #include "limber/app/console/process.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/common/echo.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::app {
 namespace {
+
+/// The innermost command that the words name.
+const CLI::App& find_command(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : find_command(*chosen.front());
+}
+
+/// "limber cache list"
+std::string find_full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? command.get_name()
+                           : find_full_name(*parent) + " " + command.get_name();
+}
+
+std::vector<std::string> list_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back("--" + name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> list_subcommands(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : command.get_subcommands(
+           [](const CLI::App* sub) { return !sub->get_group().empty(); })) {
+    names.push_back(one->get_name());
+  }
+  return names;
+}
+
+/// What is wrong with a command line: the first option or command in it that
+/// is not known, with the nearest that is, or else what the parser says.
+std::string explain(const CLI::App& app, const CLI::App& command,
+                    const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  const auto option =
+      std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
+        return word.size() > 1 && word.starts_with('-');
+      });
+  if (option != unknown.end()) {
+    return describe_unknown("option", option->substr(0, option->find('=')),
+                            list_options(command));
+  }
+  const std::vector<std::string> commands = list_subcommands(command);
+  if (!unknown.empty() && !commands.empty()) {
+    return describe_unknown("command", unknown.front(), commands);
+  }
+  constexpr std::size_t kUsual = 1000;  // all but what echoes long words
+  const std::string text = error.what();
+  return text.size() > kUsual ? echo(text) : text;
+}
 
 /// Help goes to standard output; a wrong command line is bad input.
 int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     return run_guarded([&] { (void)app.exit(error); });
   }
-  constexpr std::size_t kUsual = 1000;  // all but what echoes long words
-  const std::string text = error.what();
-  print_error((text.size() > kUsual ? echo(text) : text) +
-              " (see limber --help)");
+  const CLI::App& command = find_command(app);
+  print_error(fmt::format("{} (see {} --help)", explain(app, command, error),
+                          find_full_name(command)));
   return kBadInput;
 }
 

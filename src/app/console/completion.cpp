@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "limber/app/console/scene_words.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 
@@ -12,8 +13,12 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Words for the values that --help calls by this name.
-Words list_values(const std::string& type) {
+/// Words for the values that --help calls by this name. @param scenario of the
+/// command line; empty: none
+Words list_values(const std::string& type, const std::string& scenario) {
+  if (type == "KEY=VALUE" || type == "KEY") return list_keys(scenario);
+  if (type == "PROBES") return list_probes(scenario);
+  if (type == "INPUTS") return list_inputs(scenario);
   if (type == "LEVEL" || type == "LEVELS") return dynamics::fidelity_names();
   if (type == "INTEGRATOR") return dynamics::integrator_names();
   return {};
@@ -64,13 +69,15 @@ struct Place {
 /// `start` and the values that complete the rest of the word; after a comma the
 /// next of a list.
 std::vector<Candidate> list_values(const CLI::Option& option,
+                                   const std::string& scenario,
                                    const std::string& start,
                                    const std::string& rest) {
   const std::size_t comma = rest.rfind(',');
   const std::string before =
       comma == std::string::npos ? "" : rest.substr(0, comma + 1);
   std::vector<Candidate> all;
-  for (const std::string& value : list_values(option.get_type_name())) {
+  for (const std::string& value :
+       list_values(option.get_type_name(), scenario)) {
     if ((before + value).starts_with(rest)) {
       all.push_back({start + before + value, ""});
     }
@@ -110,17 +117,21 @@ std::vector<Candidate> complete(const CLI::App& app, const Words& given) {
   Place place{&app};
   for (std::size_t i = 0; i + 1 < words.size(); ++i) place.take(words[i]);
   const std::string last = words.empty() ? "" : words.back();
+  const auto named = std::find_if(
+      words.begin(), words.end(),
+      [](const std::string& word) { return word.ends_with(".toml"); });
+  const std::string scenario = named == words.end() ? "" : *named;
   if (is_option(last)) {
     const std::size_t equals = last.find('=');
     if (equals == std::string::npos) return list_options(*place.command, last);
     const CLI::Option* option =
         place.command->get_option_no_throw(last.substr(0, equals));
     if (option == nullptr) return {};
-    return list_values(*option, last.substr(0, equals + 1),
+    return list_values(*option, scenario, last.substr(0, equals + 1),
                        last.substr(equals + 1));
   }
   if (place.open != nullptr && place.wanted > 0) {
-    return list_values(*place.open, "", last);
+    return list_values(*place.open, scenario, "", last);
   }
   return list_commands(*place.command, last);
 }

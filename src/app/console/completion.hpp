@@ -17,8 +17,9 @@ struct Candidate {
 };
 
 /// Completions of the last word of a command line: subcommands, options, or
-/// values of an option with a known list (levels, integrators). Empty where a
-/// file or any text is possible.
+/// values of an option with a known list (levels, integrators, keys and names
+/// of a scenario that the line has). Empty where a file or any text is
+/// possible.
 /// @param words of the command line after the program's name
 [[nodiscard]] std::vector<Candidate> complete(
     const CLI::App& app, const std::vector<std::string>& words);
