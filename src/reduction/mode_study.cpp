@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/reduction/mode_study.hpp"
 
+#include "limber/fem/solid/assembly.hpp"
 #include "limber/flexbody/modal/mode_selection.hpp"
 #include "limber/reduction/selection.hpp"
 #include "limber/reduction/static_modes.hpp"
@@ -59,6 +60,7 @@ ModeStudy study(const MeshedBody& body, const Recipe& recipe,
   result.notices = body.made->notices;
   result.mesh_nodes = body.mesh.node_count();
   result.mesh_elements = body.mesh.element_count();
+  result.size = body.mesh.size();
   result.mesh_boundary_nodes = body.mesh.boundary_nodes.size();
   result.clamped = body.support.is_clamped;
   result.mass = inertia.mass;
@@ -73,6 +75,15 @@ ModeStudy study(const MeshedBody& body, const Recipe& recipe,
 }
 
 }  // namespace
+
+PartMass find_part_mass(const Recipe& recipe, const Progress& progress) {
+  const fem::TracedMesh made = read_source(recipe.mesh, progress);
+  const fem::StructuralMatrices matrices =
+      fem::assemble(made.mesh, find_materials(made.mesh, recipe), progress);
+  const fem::MassProperties inertia =
+      fem::calc_mass_properties(matrices.M_s, made.mesh.x);
+  return {inertia.mass, inertia.center, made.mesh.size(), made.notices};
+}
 
 ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
   const MeshedBody body(recipe, progress);

@@ -35,6 +35,7 @@ struct ModeStudy {
   std::size_t mesh_boundary_nodes = 0;  ///< count
   bool clamped = false;
   double mass = 0.0;                    ///< [kg]
+  Vector3 size = Vector3::Zero();       ///< bounding box edges [m]
   Vector3 p_MoBcm_M = Vector3::Zero();  ///< c.m. in the mesh frame [m]
   Matrix3 inertia = Matrix3::Zero();    ///< about the c.m. [kg m^2]
   VectorX lambda;                       ///< m eigenvalues [rad^2/s^2]
@@ -43,6 +44,17 @@ struct ModeStudy {
   std::optional<MeshLocking> locking;   ///< of a mesh of first order
   std::vector<std::string> notices;     ///< of its mesh
 };
+
+/// A mesh with its materials, without a reduction.
+struct PartMass {
+  double mass = 0.0;                    ///< [kg]
+  Vector3 p_MoBcm_M = Vector3::Zero();  ///< c.m. in the mesh frame [m]
+  Vector3 size = Vector3::Zero();       ///< bounding box edges [m]
+  std::vector<std::string> notices;     ///< of its mesh
+};
+/// @throws InputError naming the file, group or value.
+[[nodiscard]] PartMass find_part_mass(const Recipe& recipe,
+                                      const Progress& progress = {});
 
 /// Studies the lowest `recipe.basis.eigenmodes` modes. Linked by
 /// limber::reduction.

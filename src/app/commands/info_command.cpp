@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/reports/describe.hpp"
 #include "limber/common/errors.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 struct InfoOptions {
   std::string file;
-  std::optional<double> unit;
+  double unit = 0.0;
   bool json = false;
 };
 
@@ -38,7 +38,7 @@ Json describe(const InfoOptions& options) {
   const std::string extension = extension_of(options.file);
   const auto& meshes = fem::kMeshFileExtensions;
   const bool is_mesh = std::count(meshes.begin(), meshes.end(), extension) > 0;
-  if (options.unit && !is_mesh) {
+  if (options.unit > 0.0 && !is_mesh) {
     throw InputError(
         fmt::format("--unit is that of a mesh, which '{}' is not; leave it out",
                     options.file));
@@ -48,12 +48,14 @@ Json describe(const InfoOptions& options) {
   }
   if (extension == ".toml") return describe_scenario(options.file);
   if (extension == ".urdf" || extension == ".xml") {
-    return describe_robot(options.file);
+    const Json robot = describe_robot(options.file, make_progress_bar());
+    clear_progress_bar();
+    return robot;
   }
   if (extension == ".h5" || extension == ".hdf5") {
     return describe_hdf5(options.file);
   }
-  if (is_mesh) return describe_mesh(options.file, options.unit.value_or(1.0));
+  if (is_mesh) return describe_mesh(options.file, options.unit);
   throw InputError(
       fmt::format("{}: info knows .toml, .urdf and .h5 files, checkpoints, and "
                   "meshes: {}",
@@ -67,7 +69,7 @@ void add_info(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "info", "Describe a mesh, reduced body, scenario, robot or results file");
   command->add_option("file", options->file, "File")->required();
-  command->add_option("--unit", options->unit, "Metres per mesh unit");
+  add_unit(*command, options->unit);
   add_json(*command, options->json);
   command->callback([&action, options] {
     action = [options] {

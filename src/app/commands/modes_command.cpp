@@ -13,6 +13,7 @@
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/mode_table.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/flexbody/model/unlikely_values.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
 
 namespace limber::app {
@@ -63,6 +64,8 @@ void find_modes(const ModesOptions& options) {
       recipe, options.static_terms.has_value(), make_progress_bar());
   clear_progress_bar();
   print_warnings(study.notices);
+  print_warnings(flexbody::question_material(recipe.materials.front()));
+  print_warnings(flexbody::question_size(study.size, study.mass));
   if (const auto text = describe_locking(study.locking))
     print_warnings({*text});
   if (options.json) {

@@ -15,6 +15,7 @@
 #include "limber/app/reports/describe.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/model/unlikely_values.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
 #include "limber/scene/scenario/link_start.hpp"
 
@@ -107,6 +108,8 @@ void reduce(const ReduceOptions& options) {
   const flexbody::ReducedBody body = mesh.reduce(recipe);
   clear_progress_bar();
   print_warnings(mesh.record.notices);
+  print_warnings(flexbody::question_material(recipe.materials.front()));
+  print_warnings(flexbody::question_body(body));
   warn(body);
   flexbody::write_body(body, options.output);
   if (options.json) {

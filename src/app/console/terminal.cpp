@@ -13,6 +13,7 @@
 #include <new>
 #include <string_view>
 
+#include "limber/app/console/grouped_texts.hpp"
 #include "limber/app/console/time_estimate.hpp"
 #include "limber/app/console/verbosity.hpp"
 #include "limber/common/echo.hpp"
@@ -144,7 +145,7 @@ void print_notes(const std::vector<std::string>& notes) {
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& text : warnings) {
+  for (const std::string& text : group_texts(warnings)) {
     print_line("warning:", kYellow, text);
   }
 }

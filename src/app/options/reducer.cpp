@@ -60,6 +60,11 @@ flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
                     : flexbody::study_modes(recipe, progress);
 }
 
+flexbody::PartMass find_part_mass(const flexbody::Recipe& recipe,
+                                  const Progress& progress) {
+  return flexbody::find_part_mass(recipe, progress);
+}
+
 #else
 
 namespace {
@@ -83,6 +88,11 @@ scene::FullMaker make_full_maker(const Progress&) { return {}; }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe, bool,
                                    const Progress&) {
+  refuse(recipe.mesh);
+}
+
+flexbody::PartMass find_part_mass(const flexbody::Recipe& recipe,
+                                  const Progress&) {
   refuse(recipe.mesh);
 }
 

@@ -30,4 +30,8 @@ using NoteSeconds = std::function<void(const std::string& key, double seconds)>;
                                                  bool has_static,
                                                  const Progress& progress);
 
+/// flexbody::find_part_mass; throws likewise.
+[[nodiscard]] flexbody::PartMass find_part_mass(const flexbody::Recipe& recipe,
+                                                const Progress& progress);
+
 }  // namespace limber::app

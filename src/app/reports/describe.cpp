@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "limber/app/options/mode_options.hpp"
+#include "limber/app/reports/robot_masses.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/flexbody/file/body_file.hpp"
@@ -19,7 +20,8 @@
 namespace limber::app {
 namespace {
 
-Json describe_link(const scene::Link& link) {
+Json describe_link(const scene::Link& link,
+                   const std::optional<LinkMass>& mass) {
   Json json = Json::object();
   json["name"] = link.name;
   json["flexible"] = link.flexible.has_value();
@@ -30,9 +32,11 @@ Json describe_link(const scene::Link& link) {
             .string();
     const int pieces = link.flexible->pieces;
     json["pieces"] = pieces == 0 ? Json("auto") : Json(pieces);
-  } else if (link.inertia) {
-    json["mass"] = link.inertia->mass;
   }
+  if (!mass) return json;
+  json["mass"] = mass->mass;
+  json["center_of_mass"] = to_json(mass->p_LBcm);
+  if (mass->size) json["size"] = to_json(*mass->size);
   return json;
 }
 
@@ -186,11 +190,19 @@ Json describe_scenario(const std::filesystem::path& file) {
   return json;
 }
 
-Json describe_robot(const std::filesystem::path& file) {
+Json describe_robot(const std::filesystem::path& file,
+                    const Progress& progress) {
   const scene::Robot robot = scene::read_robot(file);
+  const RobotMasses masses = find_masses(robot, progress);
   Json links = Json::array();
-  for (const scene::Link& link : robot.links)
-    links.push_back(describe_link(link));
+  std::vector<std::string> warnings = robot.warnings;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const std::optional<LinkMass>& mass = masses.of_link[i];
+    links.push_back(describe_link(robot.links[i], mass));
+    if (!mass) continue;
+    warnings.insert(warnings.end(), mass->warnings.begin(),
+                    mass->warnings.end());
+  }
   Json joints = Json::array();
   for (const scene::Joint& joint : robot.joints) {
     const auto name = [&](int link) {
@@ -203,6 +215,9 @@ Json describe_robot(const std::filesystem::path& file) {
   }
   return Json{{"kind", "robot"},
               {"name", robot.name},
+              {"units", "m, kg, s, rad"},
+              {"mass", masses.total},
+              {"center_of_mass", to_json(masses.center)},
               {"links", links},
               {"joints", joints},
               {"connectors", robot.connectors.size()},
@@ -210,7 +225,7 @@ Json describe_robot(const std::filesystem::path& file) {
               {"latches", names_of(robot.latches)},
               {"tendons", names_of(robot.tendons)},
               {"gears", describe_gears(robot)},
-              {"warnings", robot.warnings}};
+              {"warnings", warnings}};
 }
 
 Json describe_checkpoint(const std::filesystem::path& file) {

@@ -143,6 +143,7 @@ Json to_json(const ModeStudy& study) {
             {"elements", study.mesh_elements},
             {"boundary_nodes", study.mesh_boundary_nodes},
             {"clamped", study.clamped},
+            {"size", to_json(study.size)},
             {"mass", study.mass},
             {"center_of_mass", to_json(study.p_MoBcm_M)},
             {"inertia", to_json(study.inertia)},
@@ -160,6 +161,8 @@ void print_text(const ModeStudy& study) {
   const Vector3& c = study.p_MoBcm_M;
   fmt::print("{} nodes ({} on the boundary), {} elements\n", study.mesh_nodes,
              study.mesh_boundary_nodes, study.mesh_elements);
+  fmt::print("{:.4g} x {:.4g} x {:.4g} m, ", study.size.x(), study.size.y(),
+             study.size.z());
   fmt::print("mass {:.6g} kg, centre of mass ({:.6g}, {:.6g}, {:.6g}) m\n",
              study.mass, c.x(), c.y(), c.z());
   print_modes(study);

@@ -223,8 +223,10 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
                            checkpoints, true);
   clear_progress_bar();
   print_more_notes(scene, run.built.notes);
-  print_warnings(run.built.warnings);
-  print_warnings(run.statistics.warnings);
+  std::vector<std::string> warnings = run.built.warnings;
+  warnings.insert(warnings.end(), run.statistics.warnings.begin(),
+                  run.statistics.warnings.end());
+  print_warnings(warnings);
   return run;
 }
 

@@ -6,7 +6,8 @@
 namespace limber::flexbody {
 
 std::optional<std::string> describe_left_out(const LoadModesRecord& record) {
-  if (record.is_whole && record.taken == record.directions) return {};
+  constexpr double kLeast = 5e-5;  // less is 0.00 %
+  if (record.is_whole && record.left_out < kLeast) return {};
   return fmt::format(
       "nodal forces '{}' deform the body in {}{} independent ways; "
       "static-deformation modes are taken of the {} largest. The others have "

@@ -201,6 +201,19 @@ void Assembly::check_moment(const LoadSpec& load,
   }
 }
 
+// Ten radii of gyration are three lengths of a rod.
+void Assembly::question_distance(const LoadSpec& load, const BodyPlan& plan,
+                                 const Vector3& p_B) {
+  constexpr double kFar = 10.0;
+  const double radius = std::sqrt(0.5 * plan.inertia.trace() / plan.mass);
+  if (!load.where.point || !(p_B.norm() > kFar * radius)) return;
+  warnings_.push_back(fmt::format(
+      "load '{}' acts {:.3g} m from the centre of mass of link '{}', whose "
+      "radius of gyration is {:.3g} m; is its point in metres, in the link's "
+      "frame?",
+      load.name, p_B.norm(), load.where.link, radius));
+}
+
 void Assembly::add_load(const LoadSpec& load) {
   const int link = find_link(scene_.robot, load.where.link);
   const BodyPlan& plan = sites_.plan_of(link);
@@ -213,6 +226,7 @@ void Assembly::add_load(const LoadSpec& load) {
   }
   const AttachmentSite site = sites_.find_site(link, X_LF, anchor);
   check_moment(load, site);
+  question_distance(load, plan, site.X_BF.p);
   const dynamics::AttachmentIndex where = attach(load.name, site, builder_);
   const bool in_body = load.frame == dynamics::LoadFrame::body;
   const Matrix3 R =

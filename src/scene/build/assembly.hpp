@@ -56,6 +56,9 @@ class Assembly {
   [[nodiscard]] dynamics::BodyIndex add_flexible_body(const BodyPlan& plan,
                                                       const Link& link);
   void check_moment(const LoadSpec& load, const AttachmentSite& site) const;
+  /// Warns of a point far from the body: in another unit or frame.
+  void question_distance(const LoadSpec& load, const BodyPlan& plan,
+                         const Vector3& p_B);
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;

@@ -23,6 +23,7 @@
 #include "limber/scene/robot/coupler_section.hpp"
 #include "limber/scene/robot/massless_links.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/scenario/unlikely_values.hpp"
 #include "limber/scene/text/toml_file.hpp"
 #include "limber/scene/text/toml_settings.hpp"
 
@@ -165,6 +166,9 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides,
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply_overrides(overrides, scene);
   check_stress(overrides, scene);
+  for (std::string& text : question_scene(scene.scenario, scene.robot)) {
+    scene.scenario.warnings.push_back(std::move(text));
+  }
   for (std::string& text : find_unused_keys(table, scene, overrides)) {
     scene.scenario.warnings.push_back(std::move(text));
   }

@@ -12,6 +12,7 @@
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/flexbody/modal/piece_check.hpp"
+#include "limber/flexbody/model/unlikely_values.hpp"
 #include "limber/scene/build/expected_impacts.hpp"
 #include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/build/recipes.hpp"
@@ -190,6 +191,9 @@ class Reduction {
     if (body->selection) add(flexbody::describe_shortfalls(*body->selection));
     for (const flexbody::LoadModesRecord& record : body->load_modes) {
       if (const auto text = describe_left_out(record)) add({*text});
+    }
+    for (const std::string& text : flexbody::question_body(*body)) {
+      if (reported_.insert(link + ": " + text).second) add({text});
     }
     if (const LinkStart* start = find_start(scene_.scenario, link)) {
       add(describe_losses(*start, *body));

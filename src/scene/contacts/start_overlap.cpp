@@ -21,6 +21,8 @@ constexpr double kMostShare = 0.03;  // of R_e [-]
 // pressed in by s a stores about s^2 E* a^3, with this 1e-4 E* a^3; a sphere at
 // the share above 8 / 15 0.03^2.5 E* R^3 = 0.8e-4 E* R^3.
 constexpr double kMostFlatShare = 0.01;
+// Of the above: where shapes are meant to touch exactly [-].
+constexpr double kRounding = 1e-8;
 constexpr std::size_t kMostTold = 10;
 
 struct Overlap {
@@ -105,7 +107,7 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
     const dynamics::PairMotion motion =
         dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
     const Overlap overlap = find_overlap(pair, model, motion.bodies());
-    if (!(overlap.depth > 0.0)) continue;
+    if (!(overlap.depth > kRounding * overlap.most)) continue;
     if (overlap.depth <= overlap.most) {
       notices.push_back(tell(pair, overlap.depth, model, motion.bodies()));
     } else if (++count <= kMostTold) {
