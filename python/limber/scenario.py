@@ -6,7 +6,7 @@ import os
 import warnings
 
 from . import _core
-from .errors import LimberWarning
+from .errors import InputError, LimberWarning
 from .linear import LinearModel
 from .run import Run, StaticRun, finish
 from .toml import from_toml, is_of_robot, look_up, put, read_toml, to_toml
@@ -157,20 +157,24 @@ class Scenario:
     def __repr__(self):
         return f"<limber.Scenario {self._file!r}, {len(self._settings)} keys set>"
 
-    def run(self, controllers=(), judge=True, cache=None, progress=None):
+    def run(self, controllers=(), judge=True, cache=None, progress=None, errors=False):
         """Simulates it, as ``limber run`` does, in memory.
 
         ``controllers``: of :class:`Controller`. ``judge``: whether to find if
         levels neglect too much, which costs time at every step. ``cache``:
         folder of reduced bodies. ``progress(what, fraction)`` is called every
-        few milliseconds.
+        few milliseconds. ``errors``: whether to find the errors of all probes by
+        cause, ``run.summary["errors"]``, each from one more run.
 
         Other Python threads continue meanwhile. Ctrl-C raises Interrupted, and a
         computation that cannot continue NumericalError; both have the :class:`Run`
         up to then as ``run``. Warnings are LimberWarning.
         """
-        recorded = _core.run(self._scene, _path(cache), judge, list(controllers),
-                             progress)
+        if errors and controllers:
+            raise InputError("errors are found by running the scenario again, without "
+                             "Python's controllers; leave one of both out")
+        recorded = _core.run(self._scene, _path(cache), judge, errors,
+                             list(controllers), progress)
         return finish(Run(recorded))
 
     def static(self, method=None, cache=None):

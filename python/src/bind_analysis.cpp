@@ -74,7 +74,7 @@ py::object compare(const scene::Scene& scene, const py::dict& wish,
                    const fs::path& cache) {
   app::ComparisonSettings settings;
   settings.scenario = scene.scenario.file;
-  settings.settings = scene.settings;
+  settings.settings = scene.overrides.settings;
   settings.cache = cache;
   settings.repeats = wish["repeats"].cast<int>();
   const app::Axes axes = read_axes(wish);

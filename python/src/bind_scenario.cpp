@@ -5,6 +5,7 @@
 
 #include "interruption.hpp"
 #include "json.hpp"
+#include "limber/app/errors/error_runs.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/run_scenery.hpp"
@@ -109,7 +110,7 @@ void check_period(const GivenLaw& given) {
 
 std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
                                  const fs::path& cache, bool judges,
-                                 const py::list& laws,
+                                 bool errors, const py::list& laws,
                                  const py::object& progress) {
   clear_cause();
   const Progress watch = make_watch(progress);
@@ -129,6 +130,10 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
     }
     recorded->run = app::simulate_pictured(scene, std::move(made), cache, watch,
                                            {}, judges);
+    if (errors && !recorded->run.failure) {
+      const auto lock = app::lock_libraries();
+      recorded->run.errors = app::estimate_errors(recorded->run, cache, watch);
+    }
   }
   recorded->cause = take_cause();
   return recorded;
@@ -159,7 +164,7 @@ void bind_scenario(py::module_& m) {
   m.def("load", &load, py::arg("file"), py::arg("settings"),
         py::arg("fidelity"));
   m.def("run", &run, py::arg("scene"), py::arg("cache"), py::arg("judges"),
-        py::arg("laws"), py::arg("progress"));
+        py::arg("errors"), py::arg("laws"), py::arg("progress"));
 }
 
 }  // namespace limber::python

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/errors/error_runs.hpp"
 #include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
@@ -18,8 +18,10 @@
 #include "limber/app/run/view_page.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/results/checkpoint_file.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -36,6 +38,7 @@ struct RunOptions {
   bool json = false;
   bool xdmf = false;
   bool views = false;
+  bool errors = false;
 };
 
 std::filesystem::path find_run_folder(const RunOptions& options,
@@ -54,18 +57,15 @@ StudiedRun find_run(const RunOptions& options) {
   return find_studied_run(options.from);
 }
 
-/// The study's values, except those that the command line sets anew.
-scene::Overrides merge(scene::Overrides studied,
-                       const scene::Overrides& given) {
-  if (given.fidelity) studied.fidelity = given.fidelity;
-  std::erase_if(studied.settings, [&](const scene::Setting& old) {
-    return std::any_of(
-        given.settings.begin(), given.settings.end(),
-        [&](const scene::Setting& set) { return set.path == old.path; });
-  });
-  studied.settings.insert(studied.settings.end(), given.settings.begin(),
-                          given.settings.end());
-  return studied;
+void estimate_errors(Run& run, const std::string& cache) {
+  try {
+    run.errors =
+        estimate_errors(run, cache, watch_signals(make_progress_bar()));
+  } catch (const dynamics::Interrupted&) {
+    run.printed_warnings.emplace_back("interrupted before errors were known");
+    print_warnings({run.printed_warnings.back()});
+  }
+  clear_progress_bar();
 }
 
 void run_scenario(const RunOptions& options) {
@@ -75,7 +75,7 @@ void run_scenario(const RunOptions& options) {
   std::string name;
   if (!options.from.empty()) {
     const StudiedRun studied = find_run(options);
-    overrides = merge(studied.overrides, overrides);
+    overrides = scene::merge(studied.overrides, overrides);
     scenario = studied.scenario;
     name = studied.name;
   } else if (scenario.empty()) {
@@ -97,6 +97,9 @@ void run_scenario(const RunOptions& options) {
         "--checkpoint-interval changes nothing: the run took no steps, all of "
         "it is known in closed form");
     print_warnings({result.printed_warnings.back()});
+  }
+  if ((options.errors || scene.scenario.output.errors) && !result.failure) {
+    estimate_errors(result, options.cache);
   }
   folder.write([&](const std::filesystem::path& place) {
     write_run(result, place, options.xdmf || scene.scenario.output.xdmf);
@@ -130,6 +133,8 @@ void add_run(CLI::App& app, Action& action) {
       ->check(make_not_negative());
   add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
+  command->add_flag("--errors", options->errors,
+                    "Errors of all probes by cause, each from one more run");
   command->add_flag("--view", options->views,
                     "Write a page that shows the motion in a browser");
   command->callback(

@@ -139,7 +139,10 @@ Json summarize_selections(const Run& run) {
   return json;
 }
 
-/// Ends a run between two steps after a signal.
+int count_modes(const Run& run) { return run.built.model.modal_count; }
+
+}  // namespace
+
 Progress watch_signals(const Progress& bar) {
   return [bar](std::string_view what, double fraction) {
     const bool is_done = fraction >= 1.0;
@@ -149,10 +152,6 @@ Progress watch_signals(const Progress& bar) {
     report(bar, what, fraction);
   };
 }
-
-int count_modes(const Run& run) { return run.built.model.modal_count; }
-
-}  // namespace
 
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
@@ -233,8 +232,9 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
 Json summarize(const Run& run) {
   Json json = Json::object();
   json["scenario"] = run.scene.scenario.file.string();
-  if (!run.scene.settings.empty()) {
-    json["settings"] = describe_settings(run.scene.settings);
+  const std::vector<scene::Setting>& settings = run.scene.overrides.settings;
+  if (!settings.empty()) {
+    json["settings"] = describe_settings(settings);
   }
   json["completed"] = run.failure == nullptr;
   json["bodies"] = run.built.model.bodies.size();
@@ -277,6 +277,7 @@ Json summarize(const Run& run) {
     json["stress"] =
         to_json(find_stress_peaks(run.built, run.history, run.record));
   }
+  if (run.errors) json["errors"] = to_json(*run.errors);
   json["levels"] = Json::array();
   for (const BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));

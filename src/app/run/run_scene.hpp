@@ -3,8 +3,10 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
 
 #include "limber/app/console/json.hpp"
+#include "limber/app/reports/error_table.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/checkpoints.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -27,8 +29,9 @@ struct Run {
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;  ///< peaks of the probes' columns, and energy
   std::vector<std::string> printed_warnings;  ///< during the run
-  std::vector<BodyLevel> levels;  ///< and whether they were justified
-  std::exception_ptr failure;     ///< the NumericalError that ended it early
+  std::vector<BodyLevel> levels;     ///< and whether they were justified
+  std::optional<ErrorTable> errors;  ///< of its probes, if asked for
+  std::exception_ptr failure;        ///< the NumericalError that ended it early
 };
 
 /// Builds and simulates a scene, without output. On NumericalError the run
@@ -57,6 +60,9 @@ struct Run {
                                  const Progress& progress,
                                  const CheckpointPlan& checkpoints = {},
                                  bool judges = false);
+
+/// Progress shown by `bar`, that ends a run between two steps after a signal.
+[[nodiscard]] Progress watch_signals(const Progress& bar);
 
 /// The same as simulate_scene with a progress bar, warnings and the judgement
 /// of levels.

@@ -107,7 +107,7 @@ results::Scenery read_scenery(const scene::Scene& scene,
   for (const scene::RobotSpec& robot : scene.scenario.robots) {
     scenery.robots.push_back({robot.name, read_whole(robot.file)});
   }
-  for (const scene::Setting& setting : scene.settings) {
+  for (const scene::Setting& setting : scene.overrides.settings) {
     scenery.settings += to_string(setting) + "\n";
   }
   for (const scene::Link& link : scene.robot.links) {

@@ -151,7 +151,7 @@ void note_falling(Scene& scene) {
 Scene load(const std::filesystem::path& file, const Overrides& overrides,
            KnownRobots* known) {
   Scene scene;
-  scene.settings = overrides.settings;
+  scene.overrides = overrides;
   toml::table table = parse_toml_file(file);
   const SortedSettings settings = sort_settings(overrides.settings, table);
   apply_settings(settings.scenario, table);
@@ -179,6 +179,29 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides,
 }
 
 }  // namespace
+
+Overrides merge(Overrides own, const Overrides& by) {
+  std::erase_if(own.settings, [&](const Setting& old) {
+    return std::any_of(
+        by.settings.begin(), by.settings.end(),
+        [&](const Setting& set) { return set.path == old.path; });
+  });
+  own.settings.insert(own.settings.end(), by.settings.begin(),
+                      by.settings.end());
+  const auto replace = [](auto& old, const auto& value) {
+    if (value) old = value;
+  };
+  replace(own.fidelity, by.fidelity);
+  replace(own.basis.eigenmodes, by.basis.eigenmodes);
+  replace(own.basis.interfaces, by.basis.interfaces);
+  replace(own.basis.loads, by.basis.loads);
+  replace(own.basis.terms, by.basis.terms);
+  replace(own.basis.pieces, by.basis.pieces);
+  replace(own.step, by.step);
+  replace(own.integrator, by.integrator);
+  replace(own.rows, by.rows);
+  return own;
+}
 
 Scene load_scene(const std::filesystem::path& file, const Overrides& overrides,
                  KnownRobots* known) {

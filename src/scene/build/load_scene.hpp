@@ -15,4 +15,7 @@ namespace limber::scene {
                                const Overrides& overrides = {},
                                KnownRobots* known = nullptr);
 
+/// `by` in place of what `own` has: key by key of settings and [basis].
+[[nodiscard]] Overrides merge(Overrides own, const Overrides& by);
+
 }  // namespace limber::scene

@@ -16,22 +16,6 @@
 
 namespace limber::scene {
 
-/// A scenario and its robot. The scenario's choice of bases, its projectiles
-/// and the surfaces that its contacts need are already the robot's.
-struct Scene {
-  Scenario scenario;
-  Robot robot;
-  std::vector<TouchingPair> touching = {};
-  /// Settings that override the files, recorded in results.
-  std::vector<Setting> settings = {};
-};
-
-/// Body and frame of a robot's link in the system, for pictures.
-struct PlacedLink {
-  dynamics::BodyIndex body = dynamics::kWorld;
-  Pose X_BL;  ///< link frame in the body's; of the world: in the world's
-};
-
 /// Values of the command line that override the file's.
 struct Overrides {
   /// Keys of the scenario and the robot; the values below override them.
@@ -44,6 +28,21 @@ struct Overrides {
   std::optional<double> step = {};
   std::optional<dynamics::IntegratorKind> integrator = {};
   std::optional<flexbody::KeptRows> rows = {};  ///< of every link with a mesh
+};
+
+/// A scenario and its robot. The scenario's choice of bases, its projectiles
+/// and the surfaces that its contacts need are already the robot's.
+struct Scene {
+  Scenario scenario;
+  Robot robot;
+  std::vector<TouchingPair> touching = {};
+  Overrides overrides = {};  ///< of the files; recorded in results
+};
+
+/// Body and frame of a robot's link in the system, for pictures.
+struct PlacedLink {
+  dynamics::BodyIndex body = dynamics::kWorld;
+  Pose X_BL;  ///< link frame in the body's; of the world: in the world's
 };
 
 }  // namespace limber::scene

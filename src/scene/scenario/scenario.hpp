@@ -193,6 +193,7 @@ struct OutputSpec {
   bool xdmf = false;
   bool pictures = true;
   bool stress = false;  ///< of every flexible link, over its whole surface
+  bool errors = false;  ///< of probes by cause, each from one more run
   double checkpoint_interval = 60.0;  ///< wall time, >= 0 [s]
 };
 

@@ -241,6 +241,7 @@ OutputSpec read_output(TomlTable& table) {
   output.xdmf = table.boolean("xdmf").value_or(false);
   output.pictures = table.boolean("pictures").value_or(true);
   output.stress = table.boolean("stress").value_or(false);
+  output.errors = table.boolean("errors").value_or(false);
   output.checkpoint_interval = table.number("checkpoint_interval", kNonNegative)
                                    .value_or(output.checkpoint_interval);
   return output;

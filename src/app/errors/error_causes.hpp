@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
+
+/// What the error of a run comes from: docs/errors.md.
+namespace limber::app {
+
+/// One cause, with the run that shows it: the same scene with this alone done
+/// better.
+struct ErrorCause {
+  std::string name;   ///< "step", "modes", "level", "mesh", "contact"
+  std::string finer;  ///< what is done better: "half of the step"
+  scene::Overrides overrides;
+  /// Error of the run over its difference from the finer one [-].
+  double factor = 1.0;
+};
+
+struct ErrorCauses {
+  std::vector<ErrorCause> causes;
+  std::vector<std::string> unknown;  ///< what no run can show, and why
+};
+
+/// The causes of a scene that was built and run.
+///
+/// Halving the step leaves 1/4 of an error of second order, so that the error
+/// is 4/3 of the difference (Richardson 1911), and of first order twice; a mesh
+/// 1.5 times as fine leaves 4/9 of one of second order. Of modes and levels the
+/// difference itself counts, of modes half as much again for those after them.
+[[nodiscard]] ErrorCauses find_error_causes(const scene::Scene& scene,
+                                            const scene::BuiltScene& built,
+                                            const dynamics::RunRecord& record);
+
+/// All of them in one run.
+[[nodiscard]] scene::Overrides join_overrides(
+    const std::vector<ErrorCause>& causes);
+
+}  // namespace limber::app

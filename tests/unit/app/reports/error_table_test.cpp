@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/reports/error_table.hpp"
+
+#include <gmock/gmock.h>
+
+namespace limber::test::error_table_test {
+namespace {
+
+using app::ColumnValues;
+using app::compare_causes;
+using app::ErrorRun;
+using app::ErrorTable;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<std::string> kNames = {"tip.ux"};
+const std::vector<std::string> kUnits = {"m"};
+const std::vector<ColumnValues> kOwn = {{{0.0, 1.0, -2.0}, -2.5}};
+
+ErrorRun make_run(const std::string& name, double factor, double seconds,
+                  const ColumnValues& values) {
+  return {name, "finer", factor, seconds, "", {values}};
+}
+
+TEST(ErrorTable, HasTheDifferencesOfEachCauseTimesItsFactor) {
+  const ErrorTable table =
+      compare_causes(kNames, kUnits, kOwn,
+                     {make_run("step", 4.0 / 3.0, 1.0, {{0.0, 1.3, -2.0}, 2.8}),
+                      make_run("modes", 1.0, 1.0, {{0.1, 1.0, -2.05}, -2.5})},
+                     std::nullopt);
+  const app::ProbeErrors& probe = table.probes.at(0);
+  EXPECT_NEAR(probe.by_cause[0].curve, 0.4, 1e-15);
+  EXPECT_NEAR(probe.by_cause[0].peak, 0.4, 1e-15);  // of magnitudes
+  EXPECT_NEAR(probe.by_cause[1].curve, 0.1, 1e-15);
+  EXPECT_EQ(probe.by_cause[1].peak, 0.0);
+  EXPECT_NEAR(probe.total.curve, 0.5, 1e-15);
+  EXPECT_TRUE(probe.adds_up);
+}
+
+TEST(ErrorTable, NamesTheCheapestCauseThatHasHalfOfTheTotal) {
+  const auto find_remedy = [](double step, double mesh, double seconds) {
+    const ErrorTable table = compare_causes(
+        kNames, kUnits, kOwn,
+        {make_run("step", 1.0, seconds, {{step, 1.0, -2.0}, -2.5}),
+         make_run("mesh", 1.0, 2.0, {{mesh, 1.0, -2.0}, -2.5}),
+         make_run("contact", 1.0, 0.1, {{0.04, 1.0, -2.0}, -2.5})},
+        std::nullopt);
+    return table.probes.at(0).remedy;
+  };
+  EXPECT_EQ(find_remedy(0.5, 0.1, 1.0), 0U);
+  EXPECT_EQ(find_remedy(0.1, 0.5, 1.0), 1U);
+  EXPECT_EQ(find_remedy(0.05, 0.05, 1.0), std::nullopt);
+}
+
+TEST(ErrorTable, TellsWhereCausesDoNotAddUp) {
+  const std::vector<ErrorRun> runs = {
+      make_run("step", 1.0, 1.0, {{0.0, 1.1, -2.0}, -2.5})};
+  const auto compare = [&](double all) {
+    return compare_causes(kNames, kUnits, kOwn, runs,
+                          make_run("all", 1.0, 1.0, {{all, 1.0, -2.0}, -2.5}))
+        .probes.at(0);
+  };
+  EXPECT_TRUE(compare(0.15).adds_up);
+  EXPECT_NEAR(compare(0.15).total.curve, 0.15, 1e-15);
+  EXPECT_FALSE(compare(0.5).adds_up);
+  EXPECT_NEAR(compare(0.5).total.curve, 0.5, 1e-15);
+}
+
+TEST(ErrorTable, TellsWhatCouldNotBeRun) {
+  ErrorRun failed = make_run("level", 1.0, 0.0, {});
+  failed.failure = "it ended at 0.1 s";
+  failed.columns.clear();
+  const ErrorTable table = compare_causes(
+      kNames, kUnits, kOwn,
+      {failed, make_run("step", 1.0, 1.0, {{0.0, 1.1, -2.0}, -2.5})},
+      std::nullopt);
+  EXPECT_THAT(to_text(table), HasSubstr("unknown: it ended at 0.1 s"));
+  EXPECT_TRUE(
+      to_json(table)["probes"]["tip.ux"]["by_cause"]["level"].is_null());
+  EXPECT_EQ(table.probes.at(0).remedy, 1U);
+}
+
+}  // namespace
+}  // namespace limber::test::error_table_test
