@@ -80,7 +80,10 @@ Vector3 find_middle(const Polytope& polytope) {
 }  // namespace
 
 bool PairPotential::suits(const BodyKind& A, const BodyKind& B) {
-  if (are_capsules(A, B) || HertzPair::suits(A, B)) return true;
+  if (are_capsules(A, B) || HertzPair::suits(A, B) ||
+      BallOnCapsule::suits(A, B)) {
+    return true;
+  }
   const auto* of_A = std::get_if<ConvexSolid>(&A);
   const auto* of_B = std::get_if<ConvexSolid>(&B);
   if (of_A == nullptr || of_B == nullptr) return RoundPair::suits(A, B);
@@ -99,6 +102,10 @@ PairPotential::PairPotential(const PlacedBody& A, const PlacedBody& B,
   turns_B_ = find_moving_turns(B);
   if (HertzPair::suits(A.kind, B.kind)) {
     point_.emplace(A.kind, B.kind, modulus);
+    return;
+  }
+  if (BallOnCapsule::suits(A.kind, B.kind)) {
+    on_capsule_.emplace(A.kind, B.kind, modulus);
     return;
   }
   if (are_capsules(A.kind, B.kind)) {
@@ -154,6 +161,7 @@ Patch PairPotential::press_capsules(const Pose& X_A, const Pose& X_B,
 Patch PairPotential::press(const Pose& X_A, const Pose& X_B,
                            bool has_derivatives) const {
   if (point_) return point_->evaluate(X_A, X_B);
+  if (on_capsule_) return on_capsule_->evaluate(X_A, X_B);
   if (capsules_) return press_capsules(X_A, X_B, has_derivatives);
   Patch out;
   const auto moments = find_moments(X_A, X_B, has_derivatives);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "limber/common/types.hpp"
+#include "limber/contact/potential/ball_on_capsule.hpp"
 #include "limber/contact/potential/capsule_pair.hpp"
 #include "limber/contact/potential/depth_moments.hpp"
 #include "limber/contact/potential/hertz_pair.hpp"
@@ -19,7 +20,8 @@ namespace limber::contact {
 /// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
 ///            that of a round punch [@johnson1985]; f = 1 of polyhedra, else of
-///            RoundPair; of balls as HertzPair, of two capsules as CapsulePair
+///            RoundPair; of balls as HertzPair and BallOnCapsule, of two
+///            capsules as CapsulePair
 /// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
@@ -35,11 +37,13 @@ class PairPotential {
                                const Vector3& shift_W = Vector3::Zero()) const;
 
   [[nodiscard]] double modulus() const { return modulus_; }
-  /// Whether as HertzPair.
-  [[nodiscard]] bool is_point() const { return point_.has_value(); }
+  /// Whether a ball touches something smooth.
+  [[nodiscard]] bool is_point() const {
+    return point_.has_value() || on_capsule_.has_value();
+  }
 
-  /// Two solids, one of them bounded, two capsules, or as RoundPair or
-  /// HertzPair.
+  /// Two solids, one of them bounded, two capsules, or as RoundPair, HertzPair
+  /// or BallOnCapsule.
   [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
  private:
@@ -58,6 +62,7 @@ class PairPotential {
   std::optional<RoundPair> round_;
   std::optional<CapsulePair> capsules_;
   std::optional<HertzPair> point_;
+  std::optional<BallOnCapsule> on_capsule_;
   // See Patch, in the bodies' frames.
   Matrix3 turns_A_ = Matrix3::Identity();
   Matrix3 turns_B_ = Matrix3::Identity();
