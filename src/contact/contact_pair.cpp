@@ -76,9 +76,8 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
       mode_reach_B_(find_mode_reach(B_.shape)) {
   if (parameters.rolling_friction > 0.0) {
     throw InputError(
-        "contact: rolling_friction does not act on these shapes: a curved "
-        "surface of a flexible link, or a ball on a flexible link or a "
-        "capsule");
+        "contact: rolling_friction does not act on these shapes: a surface "
+        "of a link at level full, or a ball on a flexible link");
   }
 }
 

@@ -305,7 +305,7 @@ ContactSurface make_contact_surface(const MeshedBody& body,
     contact.parts =
         make_contact_parts(body, bare.surface, contact.pads.normal_B, basis,
                            Phi, center, contact.patch_radius.minCoeff());
-  } else if (is_polyhedral(bare.surface)) {
+  } else {
     contact.slices = make_contact_slices(body, bare.surface, group.material,
                                          basis, Phi, center);
   }

@@ -10,7 +10,7 @@
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/effective_mass.hpp"
 #include "limber/contact/law/materials.hpp"
-#include "limber/contact/potential/convex_solid.hpp"
+#include "limber/contact/potential/body_kind.hpp"
 #include "limber/contact/shapes/shape.hpp"
 
 namespace limber::contact {
@@ -25,8 +25,8 @@ struct ContactSide {
   Matrix3 inertia_B = Matrix3::Zero();
   /// Convex parts of a rigid mesh or of a flexible surface with slices, in its
   /// frame; none of others.
-  std::vector<ConvexSolid> solids = {};
-  /// Of a flexible surface the slice of each solid.
+  std::vector<PlacedBody> bodies = {};
+  /// Of a flexible surface the slice of each of these.
   std::vector<std::size_t> slices = {};
 };
 

@@ -27,13 +27,32 @@ bool is_ball(const ContactSide& side) {
 }
 
 // Mean, of the round side of a shape; 0 of others [1/m].
-double find_curvature(const ContactSide& side) {
+template <typename Kind>
+double find_curvature(const Kind& kind) {
   return std::visit(
       Overloaded{[](const Sphere& ball) { return 1.0 / ball.radius; },
                  [](const Capsule& rod) { return 0.5 / rod.radius; },
                  [](const Cylinder& rod) { return 0.5 / rod.radius; },
                  [](const auto&) { return 0.0; }},
-      side.shape.kind);
+      kind);
+}
+
+// Of parts the largest one.
+double find_curvature(const ContactSide& side) {
+  double curvature = find_curvature(side.shape.kind);
+  for (const PlacedBody& body : side.bodies) {
+    curvature = std::max(curvature, find_curvature(body.kind));
+  }
+  return curvature;
+}
+
+std::vector<ConvexSolid> list_solids(const ContactSide& side) {
+  std::vector<ConvexSolid> solids;
+  for (const PlacedBody& body : side.bodies) {
+    const auto* solid = std::get_if<ConvexSolid>(&body.kind);
+    if (solid != nullptr) solids.push_back(*solid);
+  }
+  return solids;
 }
 
 double find_width(const std::vector<ConvexSolid>& solids, const Vector3& n) {
@@ -48,11 +67,12 @@ double find_width(const std::vector<ConvexSolid>& solids, const Vector3& n) {
 
 // Of a rigid mesh the least width normal to a face.
 double find_flat_radius(const ContactSide& side) {
-  if (side.solids.empty()) return find_roundness(side.shape, side.shape);
+  const std::vector<ConvexSolid> solids = list_solids(side);
+  if (solids.empty()) return find_roundness(side.shape, side.shape);
   double width = std::numeric_limits<double>::infinity();
-  for (const ConvexSolid& solid : side.solids) {
+  for (const ConvexSolid& solid : solids) {
     for (const ConvexSolid::Face& face : solid.faces()) {
-      width = std::min(width, find_width(side.solids, face.plane.n));
+      width = std::min(width, find_width(solids, face.plane.n));
     }
   }
   return 0.5 * width;

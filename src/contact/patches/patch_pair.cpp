@@ -67,7 +67,8 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       potentials_(make_potentials(parts_A_, parts_B_, moduli_.normal)),
       size_(contact::find_size(A_.shape, B_.shape)),
       law_(parameters, moduli_,
-           !potentials_.empty() && potentials_.front().is_point(), size_) {
+           std::ranges::all_of(potentials_, &SeriesPotential::is_point),
+           size_) {
   LIMBER_EXPECT(suits(A_, B_));
 }
 

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <type_traits>
+#include <variant>
+
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
@@ -24,28 +28,39 @@ Matrix3X find_corners(const flexbody::ContactPart& part, const Pose& X_PS) {
 
 }  // namespace
 
-PatchPart::PatchPart(const Shape& shape)
-    : ball_{shape.X_BS.p, find_extent({shape.kind, {}}, {})},
-      body_{make_body(shape.kind), shape.X_BS},
-      shape_(shape) {}
-
-PatchPart::PatchPart(const ConvexSolid& solid, const Pose& X_PS)
-    : ball_{X_PS * solid.ball().centre, solid.ball().radius},
-      body_{solid, X_PS} {}
+PatchPart::PatchPart(const PlacedBody& body) : body_(body) {
+  if (solid() == nullptr) {
+    shape_ = std::visit(
+        [&](const auto& kind) {
+          using Kind = std::decay_t<decltype(kind)>;
+          if constexpr (std::is_same_v<Kind, ConvexSolid>)
+            return Shape{};
+          else
+            return Shape{kind, body.X_BS};
+        },
+        body.kind);
+    ball_ = {body.X_BS.p, find_extent({shape_->kind, {}}, {})};
+  } else if (solid()->is_bounded()) {
+    ball_ = {body.X_BS * solid()->ball().centre, solid()->ball().radius};
+  } else {
+    ball_ = {body.X_BS.p, std::numeric_limits<double>::infinity()};
+  }
+}
 
 PatchPart::PatchPart(const flexbody::ContactPart& part, double flexibility)
-    : PatchPart(
+    : PatchPart(PlacedBody{
           ConvexSolid::make_slab(find_corners(part, find_frame(part.normal_B)),
                                  part.rim, part.depth),
-          find_frame(part.normal_B)) {
+          find_frame(part.normal_B)}) {
   centre_B_ = part.centre_B;
   motion_B_ = part.motion_B;
   flexibility_ = flexibility * part.normal_B * part.normal_B.transpose();
 }
 
 PatchPart::PatchPart(const flexbody::ContactSlice& slice,
-                     const ConvexSolid& solid)
-    : PatchPart(solid, Pose{Matrix3::Identity(), -slice.centre_B}) {
+                     const PlacedBody& body)
+    : PatchPart(PlacedBody{
+          body.kind, Pose{Matrix3::Identity(), -slice.centre_B} * body.X_BS}) {
   centre_B_ = slice.centre_B;
   motion_B_ = slice.motion_B;
   flexibility_ = slice.flexibility_B;

@@ -17,12 +17,11 @@ namespace limber::contact {
 ///            motion_B eta
 class PatchPart {
  public:
-  explicit PatchPart(const Shape& shape);
-  PatchPart(const ConvexSolid& solid, const Pose& X_PS);
+  explicit PatchPart(const PlacedBody& body);
   /// @param flexibility of the layer under its face, along the normal [m/N]
   PatchPart(const flexbody::ContactPart& part, double flexibility);
-  /// @param solid what lies within the slice, in the body's frame
-  PatchPart(const flexbody::ContactSlice& slice, const ConvexSolid& solid);
+  /// @param body that stands for the slice, in the flexible body's frame
+  PatchPart(const flexbody::ContactSlice& slice, const PlacedBody& body);
 
   /// About it, in P; of a half space the radius is infinite.
   [[nodiscard]] const ConvexSolid::Ball& ball() const { return ball_; }
@@ -32,7 +31,7 @@ class PatchPart {
   [[nodiscard]] const ConvexSolid* solid() const {
     return std::get_if<ConvexSolid>(&body_.kind);
   }
-  /// In P; of parts of surfaces and meshes nothing.
+  /// As a shape, in P; of solids nothing.
   [[nodiscard]] const std::optional<Shape>& shape() const { return shape_; }
   /// Of the layer under a flexible part's faces, in P; 0 of others [m/N].
   [[nodiscard]] const Matrix3& flexibility() const { return flexibility_; }

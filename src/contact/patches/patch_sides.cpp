@@ -17,13 +17,9 @@ namespace {
 // Of parts.
 constexpr std::size_t kMostPairs = 4096;
 
-const Skin* find_skin(const ShapeKind& shape) {
-  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&shape);
-  return skin == nullptr ? nullptr : skin->get();
-}
-
 const Skin* find_skin(const ContactSide& side) {
-  return find_skin(side.shape.kind);
+  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&side.shape.kind);
+  return skin == nullptr ? nullptr : skin->get();
 }
 
 double find_area(const flexbody::ContactPart& part) {
@@ -51,62 +47,60 @@ double find_flexibility(const flexbody::ContactPart& part,
 }
 
 bool is_rigid_mesh(const ContactSide& side) {
-  return !side.solids.empty() && side.slices.empty();
+  return !side.bodies.empty() && side.slices.empty();
 }
 
-// Flat faces alone: a solid or several, or a flexible surface with parts.
-bool is_flat(const ContactSide& side) {
-  if (!side.solids.empty()) return true;
+bool is_flexible(const ContactSide& side) {
+  return find_skin(side) != nullptr && !is_rigid_mesh(side);
+}
+
+bool is_ball(const ContactSide& side) {
+  return std::holds_alternative<Sphere>(side.shape.kind);
+}
+
+bool has_parts(const ContactSide& side) {
   const Skin* skin = find_skin(side);
-  return skin == nullptr ? is_solid(side.shape.kind)
-                         : !skin->surface().parts.empty();
+  return skin == nullptr || !side.bodies.empty() ||
+         !skin->surface().parts.empty();
 }
 
-// Whether these flat faces have a potential with a round shape. Hertz's law of
-// a ball on a flexible flat is exact, with the flexibility where it touches.
-bool suits_round(const ContactSide& flat, const ShapeKind& shape) {
-  if (find_skin(shape) != nullptr) return false;
-  const BodyKind body = make_body(shape);
-  const auto suits_body = [&](const ConvexSolid& solid) {
-    return PairPotential::suits(solid, body);
-  };
-  const bool is_flexible = find_skin(flat) != nullptr && !is_rigid_mesh(flat);
-  if (is_flexible && std::holds_alternative<Sphere>(shape)) return false;
-  if (!flat.solids.empty()) return std::ranges::all_of(flat.solids, suits_body);
-  return is_flexible || suits_body(ConvexSolid(flat.shape.kind));
-}
-
-std::size_t count_parts(const ContactSide& side) {
-  return std::max(side.solids.size(), std::size_t{1});
+// Hertz's law of a ball on a flexible surface is exact, with the flexibility
+// where it touches.
+bool is_ball_on_skin(const ContactSide& ball, const ContactSide& skin) {
+  return is_ball(ball) && is_flexible(skin);
 }
 
 }  // namespace
 
 bool suits(const ContactSide& A, const ContactSide& B) {
-  const auto is_bounded = [](const ContactSide& side) {
-    return !std::holds_alternative<HalfSpace>(side.shape.kind);
-  };
-  if (count_parts(A) * count_parts(B) > kMostPairs) return false;
-  if (is_flat(A) && is_flat(B)) return is_bounded(A) || is_bounded(B);
-  if (is_flat(A)) return suits_round(A, B.shape.kind);
-  if (is_flat(B)) return suits_round(B, A.shape.kind);
-  return find_skin(A) == nullptr && find_skin(B) == nullptr &&
-         PairPotential::suits(make_body(A.shape.kind), make_body(B.shape.kind));
+  if (!has_parts(A) || !has_parts(B)) return false;
+  if (is_ball_on_skin(A, B) || is_ball_on_skin(B, A)) return false;
+  const std::vector<PatchPart> parts_A = make_parts(A);
+  const std::vector<PatchPart> parts_B = make_parts(B);
+  if (parts_A.size() * parts_B.size() > kMostPairs) return false;
+  return std::ranges::all_of(parts_A, [&](const PatchPart& of_A) {
+    return std::ranges::all_of(parts_B, [&](const PatchPart& of_B) {
+      return PairPotential::suits(of_A.body().kind, of_B.body().kind);
+    });
+  });
 }
 
 std::vector<PatchPart> make_parts(const ContactSide& side) {
   std::vector<PatchPart> parts;
   const Skin* skin = find_skin(side);
-  for (std::size_t i = 0; i < side.solids.size(); ++i) {
-    const ConvexSolid& solid = side.solids[i];
+  for (std::size_t i = 0; i < side.bodies.size(); ++i) {
+    const PlacedBody& body = side.bodies[i];
     if (side.slices.empty()) {
-      parts.emplace_back(solid, side.shape.X_BS);
+      parts.emplace_back(body);
     } else {
-      parts.emplace_back(skin->surface().slices[side.slices[i]], solid);
+      parts.emplace_back(skin->surface().slices[side.slices[i]], body);
     }
   }
   if (!parts.empty()) return parts;
-  if (skin == nullptr) return {PatchPart(side.shape)};
+  if (skin == nullptr) {
+    const PlacedBody body{make_body(side.shape.kind), side.shape.X_BS};
+    return {PatchPart(body)};
+  }
   for (const flexbody::ContactPart& part : skin->surface().parts) {
     parts.emplace_back(part, find_flexibility(part, side.material));
   }

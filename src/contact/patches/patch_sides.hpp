@@ -9,9 +9,8 @@
 
 namespace limber::contact {
 
-/// Whether both have a potential: as PairPotential, with parts of rigid meshes
-/// and of flexible surfaces as solids, but for balls on the latter; with 4096
-/// pairs of parts at most.
+/// Whether both have a potential: as PairPotential, of all pairs of parts, at
+/// most 4096, but for balls on flexible surfaces.
 [[nodiscard]] bool suits(const ContactSide& A, const ContactSide& B);
 
 /// One of a shape, those of a flexible surface or of a mesh.

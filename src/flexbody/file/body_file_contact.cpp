@@ -94,7 +94,7 @@ std::vector<ContactPart> read_parts(const BodyFileReader& reader,
   return parts;
 }
 
-// Only of a closed surface of flat faces.
+// Of surfaces that are not flat.
 void write_slices(Hdf5File& out, const std::string& at,
                   const std::vector<ContactSlice>& slices) {
   if (slices.empty()) return;

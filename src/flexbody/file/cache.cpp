@@ -19,7 +19,7 @@ namespace limber::flexbody {
 namespace {
 
 // Increment when the reduction changes, to invalidate old entries.
-constexpr int kReductionVersion = 6;
+constexpr int kReductionVersion = 7;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 3;
 // The same for second-order kinematics.

@@ -55,8 +55,8 @@ struct ContactPart {
 /// Largest number of slices of a surface.
 inline constexpr std::size_t kMostSlices = 8;
 
-/// A piece of a closed surface of flat faces that moves as one: what lies
-/// between planes.
+/// A piece of a surface that is not flat, which moves as one: what lies between
+/// planes.
 ///
 /// Equation   motion of its centre and rotation motion_B eta, without a part of
 ///            the highest modes, as a ContactPart's; u = motion_B eta + R f
@@ -102,7 +102,7 @@ struct ContactSurface {
   std::vector<std::array<int, 6>> faces;
   ContactPads pads;  ///< none (count() 0) of a surface that is not flat
   std::vector<ContactPart> parts;  ///< none unless it is flat and convex
-  /// None unless it is closed, of flat faces that meet at edges.
+  /// None of a flat surface.
   std::vector<ContactSlice> slices;
   double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]
   double poisson_ratio = 0.0;   ///< of the same [-]

@@ -4,43 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
-#include "limber/common/index.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
 
 namespace limber::flexbody {
 namespace {
-
-using Triangle = std::array<int, 6>;
-
-Vector3 find_normal(const fem::Surface& surface, const Triangle& t) {
-  const auto x = [&](std::size_t k) { return surface.points[index(t[k])].x; };
-  return (x(1) - x(0)).cross(x(2) - x(0)).normalized();
-}
-
-bool is_flat(const fem::Surface& surface, const Triangle& t, double nothing) {
-  if (t[3] < 0) return true;
-  const auto x = [&](std::size_t k) { return surface.points[index(t[k])].x; };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3 middle = 0.5 * (x(k) + x((k + 1) % 3));
-    if ((x(3 + k) - middle).norm() > nothing) return false;
-  }
-  return true;
-}
-
-double find_size(const fem::Surface& surface) {
-  Vector3 low = surface.points.front().x;
-  Vector3 high = low;
-  for (const fem::SurfacePoint& point : surface.points) {
-    low = low.cwiseMin(point.x);
-    high = high.cwiseMax(point.x);
-  }
-  return (high - low).norm();
-}
 
 // Coordinates of each sample along the axes.
 Matrix3X list_places(const std::vector<SurfaceSample>& samples,
@@ -238,28 +209,6 @@ class Division {
 };
 
 }  // namespace
-
-bool is_polyhedral(const fem::Surface& surface) {
-  constexpr double kFlatness = 1e-6;
-  const double kInPlane = std::cos(1e-3);
-  const double kSharp = std::cos(20.0 / 180.0 * std::numbers::pi);
-  const double nothing = kFlatness * find_size(surface);
-  std::map<std::pair<int, int>, Vector3> normals;  // left of each edge
-  const auto visit = [](const Triangle& t, const auto& use) {
-    for (std::size_t k = 0; k < 3; ++k) use(t[k], t[(k + 1) % 3]);
-  };
-  for (const Triangle& t : surface.triangles) {
-    if (!is_flat(surface, t, nothing)) return false;
-    visit(t, [&](int a, int b) { normals[{a, b}] = find_normal(surface, t); });
-  }
-  return std::ranges::all_of(normals, [&](const auto& entry) {
-    const auto& [edge, normal] = entry;
-    const auto other = normals.find({edge.second, edge.first});
-    if (other == normals.end()) return false;
-    const double cosine = normal.dot(other->second);
-    return cosine > kInPlane || cosine < kSharp;
-  });
-}
 
 SkinDivision divide_skin(const std::vector<SurfaceSample>& samples,
                          const VectorX& lambda, const MatrixX& Phi,

@@ -7,15 +7,9 @@
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/reduction/slices/surface_samples.hpp"
 
-/// Closed surfaces of flat faces as slices that move as one piece. Part of
+/// Surfaces as slices that move as one piece. Part of
 /// limber_reduction.
 namespace limber::flexbody {
-
-/// Whether a surface is closed and polyhedral: its triangles are flat within a
-/// millionth of its size, and where two meet, they lie in one plane within 1e-3
-/// or turn by more than 20 degrees. Smaller angles stand for a curved surface,
-/// whose contacts have less depth than its facets miss.
-[[nodiscard]] bool is_polyhedral(const fem::Surface& surface);
 
 /// The part of a surface within a box.
 struct SkinSlice {

@@ -149,7 +149,7 @@ void Assembly::add_loads() {
 }
 
 void Assembly::add_contacts() {
-  touching_ = ContactAssembly(scene_, sites_, builder_).add_all();
+  touching_ = ContactAssembly(scene_, sites_, builder_, warnings_).add_all();
 }
 
 void Assembly::check_start(const dynamics::SystemModel& model,

@@ -14,7 +14,7 @@
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_sides.hpp"
-#include "limber/contact/patches/skin_solids.hpp"
+#include "limber/contact/patches/skin_parts.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
@@ -124,12 +124,32 @@ contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
       Pose{}};
 }
 
-std::vector<contact::ConvexSolid> find_solids(const contact::Shape& shape) {
+std::vector<contact::PlacedBody> find_bodies(const contact::Shape& shape) {
   const auto* skin =
       std::get_if<std::shared_ptr<const contact::Skin>>(&shape.kind);
   if (skin == nullptr) return {};
   const flexbody::ContactSurface& surface = (*skin)->surface();
-  return contact::split_mesh(surface.x_B, surface.faces);
+  std::vector<contact::PlacedBody> bodies;
+  for (auto& solid : contact::split_mesh(surface.x_B, surface.faces)) {
+    bodies.push_back({std::move(solid), Pose{}});
+  }
+  return bodies;
+}
+
+// A surface that is farther from what stands for it than this, of its size, is
+// told of.
+constexpr double kClose = 1e-3;
+
+std::optional<std::string> describe_error(
+    const std::string& name, const flexbody::ContactSurface& surface,
+    double error) {
+  const Vector3 extent =
+      surface.x_B.rowwise().maxCoeff() - surface.x_B.rowwise().minCoeff();
+  if (error <= kClose * extent.norm()) return {};
+  return fmt::format(
+      "contact of '{}', surface '{}': the convex shapes that stand for its "
+      "slices are up to {:.2g} m from it; contacts begin where these touch",
+      name, surface.name, error);
 }
 
 std::string describe_pair(const Scene& scene, const TouchingPair& pair) {
@@ -193,7 +213,7 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
     sides.push_back(
         {source.name + number, site.body,
          make_side(shape, source.contact.material, sites_.plan_of(link))});
-    sides.back().side.solids = find_solids(shape);
+    sides.back().side.bodies = find_bodies(shape);
   }
   return sides;
 }
@@ -216,9 +236,12 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
                        contact::SurfaceMaterial{surface.youngs_modulus,
                                                 surface.poisson_ratio},
                        plan)});
-        contact::SkinSolids parts = contact::split_skin(surface);
-        sides.back().side.solids = std::move(parts.solids);
+        contact::SkinParts parts = contact::split_skin(surface);
+        sides.back().side.bodies = std::move(parts.bodies);
         sides.back().side.slices = std::move(parts.slices);
+        if (const auto text = describe_error(plan.name, surface, parts.error)) {
+          warnings_.push_back(*text);
+        }
       });
     }
   }

@@ -21,8 +21,9 @@ namespace limber::scene {
 class ContactAssembly {
  public:
   ContactAssembly(const Scene& scene, const AttachmentSites& sites,
-                  dynamics::SystemBuilder& builder)
-      : scene_(scene), sites_(sites), builder_(builder) {}
+                  dynamics::SystemBuilder& builder,
+                  std::vector<std::string>& warnings)
+      : scene_(scene), sites_(sites), builder_(builder), warnings_(warnings) {}
 
   /// A pair for every two shapes, called "A/B" after their bodies, with the
   /// shape's number ("A.2/B") or surface ("A.tip/B") if a body has several.
@@ -49,6 +50,7 @@ class ContactAssembly {
   const Scene& scene_;
   const AttachmentSites& sites_;
   dynamics::SystemBuilder& builder_;
+  std::vector<std::string>& warnings_;
   std::map<Toucher, Sides> sides_;
   /// By the body's reduction, the surface, and its level.
   std::map<std::tuple<const void*, std::string, dynamics::Fidelity>,

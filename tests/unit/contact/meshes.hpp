@@ -46,6 +46,11 @@ struct TestMesh {
   [[nodiscard]] std::vector<ConvexSolid> split() const {
     return split_mesh(x_B(), faces);
   }
+  [[nodiscard]] std::vector<PlacedBody> list_bodies() const {
+    std::vector<PlacedBody> bodies;
+    for (const ConvexSolid& solid : split()) bodies.push_back({solid, Pose{}});
+    return bodies;
+  }
   [[nodiscard]] ContactSide make_side(double modulus, double mass,
                                       const Matrix3& inertia) const {
     flexbody::ContactSurface surface;
@@ -57,7 +62,7 @@ struct TestMesh {
     surface.patch_radius = VectorX::Constant(surface.x_B.cols(), 0.01);
     surface.faces = faces;
     return {Shape{std::make_shared<const Skin>(std::move(surface)), {}},
-            SurfaceMaterial{modulus, 0.3}, mass, inertia, split()};
+            SurfaceMaterial{modulus, 0.3}, mass, inertia, list_bodies()};
   }
 };
 

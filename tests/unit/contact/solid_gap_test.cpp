@@ -76,8 +76,8 @@ int visit_apart(int count, const Use& use) {
   int seen = 0;
   for (const ShapeKind& a : list_kinds()) {
     for (const ShapeKind& b : list_kinds()) {
-      const PatchPart part_A(Shape{a, {}});
-      const PatchPart part_B(Shape{b, {}});
+      const PatchPart part_A(PlacedBody{make_body(a), {}});
+      const PatchPart part_B(PlacedBody{make_body(b), {}});
       SCOPED_TRACE(name_kind({a, {}}) + " with " + name_kind({b, {}}));
       for (int i = 0; i < count; ++i) {
         const PairBody A = draw(random, 0.0);

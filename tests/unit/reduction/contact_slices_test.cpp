@@ -164,36 +164,5 @@ TEST(ContactSlices, CarryForcesWithoutMoments) {
   }
 }
 
-TEST(Polyhedral, IsABoxButNotWithoutASide) {
-  const Skin skin(kFinger);
-  EXPECT_TRUE(is_polyhedral(skin.surface));
-  fem::Surface open = skin.surface;
-  open.triangles.pop_back();
-  EXPECT_FALSE(is_polyhedral(open));
-}
-
-// Facets that turn by 15 degrees stand for a round body, those by 30 for
-// themselves.
-TEST(Polyhedral, IsAPrismOfFewSides) {
-  for (const int sides : {12, 24}) {
-    fem::Surface prism;
-    prism.points.push_back({Vector3(0.0, 0.0, -1.0)});
-    prism.points.push_back({Vector3(0.0, 0.0, 1.0)});
-    for (int i = 0; i < sides; ++i) {
-      const double a = 2.0 * std::acos(-1.0) * i / sides;
-      for (const double z : {-1.0, 1.0}) {
-        prism.points.push_back({Vector3(std::cos(a), std::sin(a), z)});
-      }
-      const int here = 2 + 2 * i;
-      const int next = 2 + 2 * ((i + 1) % sides);
-      prism.triangles.push_back({0, next, here, -1, -1, -1});
-      prism.triangles.push_back({1, here + 1, next + 1, -1, -1, -1});
-      prism.triangles.push_back({here, next, next + 1, -1, -1, -1});
-      prism.triangles.push_back({here, next + 1, here + 1, -1, -1, -1});
-    }
-    EXPECT_EQ(is_polyhedral(prism), sides == 12) << sides;
-  }
-}
-
 }  // namespace
 }  // namespace limber::flexbody::contact_slices_test

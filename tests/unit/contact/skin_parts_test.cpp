@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/skin_solids.hpp"
+#include "limber/contact/patches/skin_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 /// Whole skins of flexible bodies: their solids, and their potential against
 /// that of the same shapes when rigid.
-namespace limber::contact::skin_solids_test {
+namespace limber::contact::skin_parts_test {
 namespace {
 
 using joints::PairBody;
@@ -95,45 +95,49 @@ void cut_along_x(const std::vector<double>& at,
   }
 }
 
-double sum_volumes(const SkinSolids& skin) {
+double sum_volumes(const SkinParts& skin) {
   double sum = 0.0;
-  for (const ConvexSolid& solid : skin.solids) sum += solid.find_volume();
+  for (const PlacedBody& body : skin.bodies) {
+    sum += std::get<ConvexSolid>(body.kind).find_volume();
+  }
   return sum;
 }
 
-TEST(SkinSolids, OfABarAreItsSlices) {
+TEST(SkinParts, OfABarAreItsSlices) {
   flexbody::ContactSurface skin = make_skin(make_row(5), 0.02, 0.03);
-  EXPECT_TRUE(split_skin(skin).solids.empty());
+  EXPECT_TRUE(split_skin(skin).bodies.empty());
   cut_along_x({0.03, 0.06}, skin);
-  const SkinSolids solids = split_skin(skin);
+  const SkinParts solids = split_skin(skin);
   EXPECT_EQ(solids.slices, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_NEAR(sum_volumes(solids), 0.1 * 0.02 * 0.03, 1e-15);
-  const auto count = [](const ConvexSolid& solid) {
+  EXPECT_EQ(solids.error, 0.0);
+  const auto count = [](const PlacedBody& body) {
     return std::ranges::count_if(
-        solid.faces(), [](const ConvexSolid::Face& f) { return f.presses; });
+        std::get<ConvexSolid>(body.kind).faces(),
+        [](const ConvexSolid::Face& f) { return f.presses; });
   };
-  EXPECT_EQ(count(solids.solids[0]), 5);
-  EXPECT_EQ(count(solids.solids[1]), 4);
-  EXPECT_EQ(count(solids.solids[2]), 5);
+  EXPECT_EQ(count(solids.bodies[0]), 5);
+  EXPECT_EQ(count(solids.bodies[1]), 4);
+  EXPECT_EQ(count(solids.bodies[2]), 5);
 }
 
-TEST(SkinSolids, OfAnAngleAreThoseOfBothLegs) {
+TEST(SkinParts, OfAnAngleAreThoseOfBothLegs) {
   auto cells = make_row(4);
   for (int k = 1; k < 4; ++k) cells.emplace_back(0, k);
   flexbody::ContactSurface skin = make_skin(cells, 0.02, 0.03);
   cut_along_x({0.05}, skin);
-  const SkinSolids solids = split_skin(skin);
+  const SkinParts solids = split_skin(skin);
   EXPECT_NEAR(sum_volumes(solids), 7 * 0.02 * 0.02 * 0.03, 1e-15);
-  EXPECT_EQ(solids.solids.size(), 3U);
+  EXPECT_EQ(solids.bodies.size(), 3U);
 }
 
 ContactSide make_side(const flexbody::ContactSurface& skin) {
-  SkinSolids parts = split_skin(skin);
+  SkinParts parts = split_skin(skin);
   return {.shape = {std::make_shared<const Skin>(skin), {}},
           .material = SurfaceMaterial{kModulus, 0.3},
           .mass = 1.0,
           .inertia_B = Matrix3::Identity(),
-          .solids = std::move(parts.solids),
+          .bodies = std::move(parts.bodies),
           .slices = std::move(parts.slices)};
 }
 
@@ -188,7 +192,7 @@ std::vector<PairBody> list_touches() {
 }
 
 // On a block of which the top is z = 0.
-TEST(SkinSolids, OfABoxInOneSliceTouchAsTheBox) {
+TEST(SkinParts, OfABoxInOneSliceTouchAsTheBox) {
   flexbody::ContactSurface skin = make_skin(make_row(5), 0.02, 0.03);
   cut_along_x({}, skin);
   const ContactSide block{
@@ -205,7 +209,7 @@ TEST(SkinSolids, OfABoxInOneSliceTouchAsTheBox) {
 
 // A slice far from the place of a touch changes nothing, moved, turned or with
 // the other name first.
-TEST(SkinSolids, TouchAloneWhereTheyAre) {
+TEST(SkinParts, TouchAloneWhereTheyAre) {
   flexbody::ContactSurface whole = make_skin(make_row(5), 0.02, 0.03);
   cut_along_x({}, whole);
   flexbody::ContactSurface cut = make_skin(make_row(5), 0.02, 0.03);
@@ -236,4 +240,4 @@ TEST(SkinSolids, TouchAloneWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_solids_test
+}  // namespace limber::contact::skin_parts_test

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/skin_solids.hpp"
+#include "limber/contact/patches/skin_parts.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "limber/contact/patches/skin_slice.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 
 namespace limber::contact {
@@ -33,20 +34,43 @@ std::optional<ConvexSolid> cut_out(const ConvexSolid& solid,
   return presses ? part : std::nullopt;
 }
 
-}  // namespace
-
-SkinSolids split_skin(const flexbody::ContactSurface& surface) {
-  SkinSolids out;
-  if (surface.slices.empty()) return out;
+// @return whether there is any
+bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
   for (const ConvexSolid& solid : split_mesh(surface.x_B, surface.faces)) {
     for (std::size_t i = 0; i < surface.slices.size(); ++i) {
       auto part = cut_out(solid, surface.slices[i]);
       if (!part) continue;
-      out.solids.push_back(std::move(*part));
+      out.bodies.push_back({std::move(*part), Pose{}});
       out.slices.push_back(i);
     }
-    if (out.solids.size() > kMostSkinSolids) return {};
+    if (out.bodies.size() > kMostSkinParts) return false;
   }
+  return !out.bodies.empty();
+}
+
+void add_bodies(const flexbody::ContactSurface& surface,
+                const std::vector<SkinFacet>& facets, SkinParts& out) {
+  const std::vector<bool> is_exact = find_exact_nodes(surface);
+  for (std::size_t i = 0; i < surface.slices.size(); ++i) {
+    const SkinSlice slice(surface, facets, is_exact, surface.slices[i]);
+    auto found = find_round_body(slice);
+    if (!found) found = find_hull(slice);
+    if (!found) continue;
+    out.bodies.push_back(std::move(found->body));
+    out.slices.push_back(i);
+    out.error = std::max(out.error, found->error);
+  }
+}
+
+}  // namespace
+
+SkinParts split_skin(const flexbody::ContactSurface& surface) {
+  SkinParts out;
+  if (surface.slices.empty()) return out;
+  const std::vector<SkinFacet> facets = find_facets(surface);
+  if (is_polyhedral(facets) && add_solids(surface, out)) return out;
+  out = {};
+  add_bodies(surface, facets, out);
   return out;
 }
 

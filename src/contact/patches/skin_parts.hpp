@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "limber/contact/potential/body_kind.hpp"
+#include "limber/flexbody/model/contact_surface.hpp"
+
+namespace limber::contact {
+
+/// Largest number of convex bodies of a flexible surface.
+inline constexpr std::size_t kMostSkinParts = 32;
+
+/// Convex bodies that stand for the slices of a flexible surface, in its body's
+/// frame.
+struct SkinParts {
+  std::vector<PlacedBody> bodies;
+  std::vector<std::size_t> slices;  ///< of each body
+  /// The largest distance between the surface and what stands for it: nothing
+  /// of flat faces; of round ones how far they are from round, or the thickness
+  /// of a tube's wall [m].
+  double error = 0.0;
+};
+
+/// A closed surface of flat faces is that solid, as split_mesh, each part cut
+/// by the planes of each slice. Faces in these planes do not press.
+/// Of another surface each slice is one body: a ball, a cylinder with its ends,
+/// or a capsule (see find_round_body), or else a hull (see find_hull).
+/// @returns nothing of a surface without slices, and of more than
+/// kMostSkinParts bodies
+[[nodiscard]] SkinParts split_skin(const flexbody::ContactSurface& surface);
+
+}  // namespace limber::contact
