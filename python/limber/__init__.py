@@ -22,7 +22,7 @@ from .body import reduce
 from .errors import (
     ContractError, InputError, Interrupted, LimberWarning, NumericalError)
 from .linear import LinearModel
-from .run import BodyMotion, Event, Run, StaticRun
+from .run import BodyMotion, Envelope, Event, Peak, Run, StaticRun
 from .scenario import Controller, Scenario, linearize, load
 from .simulation import simulate
 from .study import Effect, Row, Study, StudyResults

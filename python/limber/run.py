@@ -16,6 +16,16 @@ time [s]; source: its name; what: "stop reached", "latched", "load edge", ...;
 rate: of what triggered it [m/s or rad/s]."""
 
 
+Peak = collections.namedtuple("Peak", "value time")
+Peak.__doc__ = """Value of largest magnitude of all steps, signed, and its time [s]."""
+
+Envelope = collections.namedtuple("Envelope", "edges least most")
+Envelope.__doc__ = """Smallest and largest values in n intervals of time.
+
+edges (n + 1,) [s]; least, most (n,): of all steps and outputs in each interval,
+NaN where there is no value."""
+
+
 class BodyMotion:
     """Motion of one body's frame B and its modes; arrays share the run's memory.
 
@@ -108,6 +118,27 @@ class Run:
         return self._recorded.probes[:, of[0]:of[-1] + 1] if of else None
 
     @property
+    def peaks(self):
+        """:class:`Peak` of each column of the probes, by name: of all steps,
+        where ``probes`` has the outputs."""
+        peaks = dict(zip(self._columns, self._recorded.peaks))
+        return Named("peak", peaks,
+                     lambda name: Peak(*peaks[name]) if name in peaks else None)
+
+    @property
+    def envelopes(self):
+        """:class:`Envelope` of each column of the probes, by name. Its intervals
+        are those between outputs, of more than 1000 outputs several together;
+        an equilibrium has none."""
+        names = self._columns[:self._recorded.enveloped]
+
+        def find(name):
+            if name not in names:
+                return None
+            return Envelope(*self._recorded.envelope(names.index(name)))
+        return Named("envelope", names, find)
+
+    @property
     def units(self):
         """Unit of each column of the probes, by name."""
         return dict(self._units)
@@ -157,8 +188,8 @@ class Run:
         return self._recorded.failure is None
 
     def save(self, folder, pictures=False, xdmf=False):
-        """Writes results.h5, probes.csv and summary.json, as ``limber run``
-        does; with ``pictures``, and files for ParaView (``xdmf``)."""
+        """Writes results.h5, probes.csv, peaks.csv, envelopes.csv and
+        summary.json, as ``limber run`` does; with ``pictures``, and files for ParaView (``xdmf``)."""
         self._recorded.save(os.fspath(folder), pictures, xdmf)
 
     def write_page(self, file):
@@ -270,9 +301,23 @@ def _plot(run, names):
                            figsize=(8, 1 + 2.5 * count))[1][:, 0]
     for axis, (unit, of_unit) in zip(axes, by_unit.items()):
         for column in of_unit:
-            axis.plot(run.time, run.probes[column], label=column)
+            line, = axis.plot(run.time, run.probes[column], label=column)
+            _plot_extremes(axis, run, column, line.get_color())
         axis.set_ylabel(f"[{unit}]")
         axis.legend(loc="best")
     axes[0].set_title(run.name)
     axes[-1].set_xlabel("time [s]")
     return axes
+
+
+def _plot_extremes(axis, run, column, colour):
+    if column in run.envelopes:
+        edges, least, most = run.envelopes[column]
+        axis.fill_between(edges, [*least, least[-1]], [*most, most[-1]], step="post",
+                          color=colour, alpha=0.25, linewidth=0)
+    if column not in run.peaks:
+        return
+    peak = run.peaks[column]
+    axis.scatter([peak.time], [peak.value], edgecolors=colour, facecolors="none")
+    axis.annotate(f"{peak.value:.3g}", (peak.time, peak.value), color=colour,
+                  xytext=(4, 4), textcoords="offset points")

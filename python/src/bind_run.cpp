@@ -31,6 +31,26 @@ py::array get_probes(const py::object& self) {
                  self);
 }
 
+/// (value, time) a column; empty for an equilibrium.
+py::list list_peaks(const RecordedRun& run) {
+  py::list peaks;
+  for (const dynamics::Extreme& peak : run.run.record.peaks) {
+    peaks.append(py::make_tuple(peak.value, peak.time));
+  }
+  return peaks;
+}
+
+/// Edges (n + 1), and least and most of a column (n).
+py::tuple get_envelope(const py::object& self, py::ssize_t column) {
+  const dynamics::Envelopes& envelopes = run_of(self).run.record.envelopes;
+  const Eigen::Index rows = envelopes.least.rows();
+  const auto side = [&](const MatrixX& values) {
+    return view_of(values.data() + column * rows, {rows}, {1}, self);
+  };
+  return py::make_tuple(view_of(envelopes.edges, self), side(envelopes.least),
+                        side(envelopes.most));
+}
+
 /// A member of every energy balance.
 py::array get_energies(const py::object& self, const double* first,
                        py::ssize_t size) {
@@ -156,6 +176,12 @@ void bind_run(py::module_& m) {
       .def_property_readonly("time", &get_time)
       .def_property_readonly("probes", &get_probes)
       .def_property_readonly("columns", &list_columns)
+      .def_property_readonly("peaks", &list_peaks)
+      .def_property_readonly("enveloped",
+                             [](const RecordedRun& run) {
+                               return run.run.record.envelopes.least.cols();
+                             })
+      .def("envelope", &get_envelope)
       .def_property_readonly(
           "energies", [](const py::object& self) { return get_energies(self); })
       .def_property_readonly("bodies", &list_bodies)

@@ -47,9 +47,16 @@ void add_data(GnuplotScript& script, const std::string& block,
 // Largest finite value; only finite ones are drawn.
 double largest(const Panel& panel) {
   double value = 0.0;
-  for (const Series& series : panel.series) {
-    for (const double v : series.values) {
+  const auto include = [&](const std::vector<double>& values) {
+    for (const double v : values) {
       if (std::isfinite(v)) value = std::max(value, std::abs(v));
+    }
+  };
+  for (const Series& series : panel.series) {
+    include(series.values);
+    if (series.band) {
+      include(series.band->least);
+      include(series.band->most);
     }
     if (series.peak) value = std::max(value, std::abs(series.peak->value));
   }
@@ -63,6 +70,28 @@ void add_peak(GnuplotScript& script, const std::string& block,
   script.add(fmt::format("{:.9g} {:.9g} {:.3g}", series.peak->time,
                          series.peak->value, series.peak->value));
   script.add("EOD");
+}
+
+// Two rows an interval, so that each is a rectangle.
+void add_band(GnuplotScript& script, const std::string& block,
+              const Band& band) {
+  script.add(fmt::format("${}b << EOD", block));
+  for (std::size_t k = 0; k < band.least.size(); ++k) {
+    const double least = band.least[k];
+    const double most = band.most[k];
+    if (!std::isfinite(least) || !std::isfinite(most)) continue;
+    for (const double t : {band.edges[k], band.edges[k + 1]}) {
+      script.add(fmt::format("{:.9g} {:.9g} {:.9g}", t, least, most));
+    }
+  }
+  script.add("EOD");
+}
+
+std::string plot_band(const std::string& block, std::size_t s) {
+  return fmt::format(
+      "${}b using 1:2:3 with filledcurves fs transparent solid 0.25 noborder "
+      "lc rgb '{}' notitle, ",
+      block, kProbeColours[s % kProbeColours.size()]);
 }
 
 bool has_peak(const Series& series) {
@@ -111,6 +140,10 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
   }
   std::string plot = "plot ";
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
+    if (!panel.series[s].band) continue;
+    plot += plot_band(fmt::format("d{}_{}", p, s), s);
+  }
+  for (std::size_t s = 0; s < panel.series.size(); ++s) {
     plot += fmt::format("{}$d{}_{} using 1:2 with lines {} title {}",
                         s == 0 ? "" : ", ", p, s, style(s),
                         quote(panel.series[s].name));
@@ -154,10 +187,10 @@ TimeRange find_range(const std::vector<Panel>& panels) {
 // nine digits show how they differ. Zero if they differ much, or by round-off.
 double choose_origin(double least, double most) {
   constexpr double kLittle = 1e-2;
-  constexpr double kRoundoff = 1e-12;
+  constexpr double kSameNumber = 1e-12;
   const double range = most - least;
   const double size = std::max(std::abs(least), std::abs(most));
-  if (!(range < kLittle * size && range > kRoundoff * size)) return 0.0;
+  if (!(range < kLittle * size && range > kSameNumber * size)) return 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(range)));
   const double steps = std::round(0.5 * (least + most) / unit);
   return unit < 1.0 ? steps / std::round(1.0 / unit) : steps * unit;
@@ -188,6 +221,10 @@ Panel count_from_offset(Panel panel) {
   panel.label = label_from(panel.label, offset);
   for (Series& series : panel.series) {
     for (double& value : series.values) value -= offset;
+    if (series.band) {
+      for (double& value : series.band->least) value -= offset;
+      for (double& value : series.band->most) value -= offset;
+    }
     if (series.peak) series.peak->value -= offset;
   }
   return panel;
@@ -204,6 +241,9 @@ void subtract_time(std::vector<Panel>& panels, std::vector<Mark>& marks,
   for (Panel& panel : panels) {
     for (Series& series : panel.series) {
       for (double& t : series.times) t -= start;
+      if (series.band) {
+        for (double& t : series.band->edges) t -= start;
+      }
       if (series.peak) series.peak->time -= start;
     }
   }
@@ -301,6 +341,9 @@ std::string draw_overlay(const std::filesystem::path& file,
       if (has_peak(panels[p].series[s])) {
         add_peak(script, block, panels[p].series[s]);
       }
+      if (panels[p].series[s].band) {
+        add_band(script, block, *panels[p].series[s].band);
+      }
     }
   }
   const std::string key_height = fmt::format("{:.4f}", 1.0 - 58.0 / height);
@@ -335,7 +378,7 @@ std::string draw_overlay(const std::filesystem::path& file,
 std::string draw_energy(const std::filesystem::path& file,
                         const std::string& title, const History& history) {
   const auto series = [&](const char* name, auto value) {
-    Series s{name, history.times, {}, {}};
+    Series s{name, history.times, {}};
     for (const dynamics::EnergyBalance& e : history.energies) {
       s.values.push_back(value(e));
     }

@@ -10,6 +10,7 @@
 #include "limber/dynamics/monitors/followed.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/results/band.hpp"
 #include "limber/results/history.hpp"
 #include "limber/results/scenery.hpp"
 
@@ -25,6 +26,8 @@ struct Series {
   std::vector<double> values;  ///< [unit of the panel's label]
   /// Marked and labelled; may lie between two times.
   std::optional<dynamics::Extreme> peak = {};
+  /// Drawn behind the curve, in its colour.
+  std::optional<Band> band = {};
 };
 
 /// One panel: curves that share an axis.

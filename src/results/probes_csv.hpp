@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/results/history.hpp"
 
 namespace limber::results {
@@ -12,5 +13,19 @@ namespace limber::results {
 /// @throws InputError if it cannot be written.
 void write_probes_csv(const std::filesystem::path& file,
                       const History& history);
+
+/// Writes "name,unit,peak,time [s]" and a line a column of the probes: its
+/// value of largest magnitude, signed, and when, of all steps of a run.
+/// @throws InputError if it cannot be written.
+void write_peaks_csv(const std::filesystem::path& file, const History& history,
+                     const std::vector<dynamics::Extreme>& peaks);
+
+/// Writes "from [s],to [s],NAME least [UNIT],NAME most [UNIT],..." and a line
+/// an interval: the smallest and largest values of its steps and outputs;
+/// nothing between commas where there is none.
+/// @throws InputError if it cannot be written.
+void write_envelopes_csv(const std::filesystem::path& file,
+                         const History& history,
+                         const dynamics::Envelopes& envelopes);
 
 }  // namespace limber::results

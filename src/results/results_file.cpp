@@ -33,6 +33,32 @@ void write_probes(Hdf5File& out, const History& history) {
   }
 }
 
+// Of all steps, beside the outputs.
+void write_extremes(Hdf5File& out, const History& history,
+                    const dynamics::RunRecord& record) {
+  for (std::size_t c = 0; c < record.peaks.size(); ++c) {
+    const dynamics::Extreme& peak = record.peaks[c];
+    MatrixX values(1, 2);
+    values << peak.value, peak.time;
+    out.write("peaks/" + to_path_step(history.columns[c].name), values,
+              history.columns[c].unit + ", s",
+              "value of largest magnitude of all steps, and its time");
+  }
+  const dynamics::Envelopes& envelopes = record.envelopes;
+  if (envelopes.is_empty()) return;
+  const MatrixX edges = Eigen::Map<const VectorX>(envelopes.edges.data(),
+                                                  std::ssize(envelopes.edges));
+  out.write("envelope_edges", edges, "s", "ends of intervals");
+  for (std::size_t c = 0; c < history.columns.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    MatrixX values(envelopes.least.rows(), 2);
+    values << envelopes.least.col(column), envelopes.most.col(column);
+    out.write("envelopes/" + to_path_step(history.columns[c].name), values,
+              history.columns[c].unit,
+              "smallest and largest value in each interval; NaN: none");
+  }
+}
+
 void write_body_states(Hdf5File& out, const dynamics::BodyModel& body,
                        std::size_t b, const History& history) {
   MatrixX position(count(history), 3);
@@ -149,10 +175,11 @@ void write_content(Hdf5File& out, const dynamics::SystemModel& model,
 
 void write_results(const std::filesystem::path& file,
                    const dynamics::SystemModel& model, const History& history,
-                   const Scenery* scenery) {
+                   const Scenery* scenery, const dynamics::RunRecord* record) {
   write_whole(file, [&](const std::filesystem::path& part) {
     Hdf5File out = Hdf5File::create(part);
     write_content(out, model, history);
+    if (record != nullptr) write_extremes(out, history, *record);
     if (scenery != nullptr) write_scenery(out, *scenery, model, history);
     out.close();
   });

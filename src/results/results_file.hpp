@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
 #include "limber/results/scenery.hpp"
@@ -17,10 +18,12 @@ inline constexpr int kResultsFileVersion = 1;
 /// the events, to one HDF5 file; every dataset carries its unit and meaning.
 /// Names of bodies and probes are encoded by `to_path_step`.
 /// @param scenery what `limber view` needs beside that; null: none
+/// @param record peaks and envelopes of the probes' columns; null: none
 /// @throws InputError if it cannot be written.
 void write_results(const std::filesystem::path& file,
                    const dynamics::SystemModel& model, const History& history,
-                   const Scenery* scenery = nullptr);
+                   const Scenery* scenery = nullptr,
+                   const dynamics::RunRecord* record = nullptr);
 
 /// Contents of a results file, without its data.
 struct ResultsContents {

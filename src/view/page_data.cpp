@@ -147,6 +147,16 @@ class PageWriter {
             {"shapes", arrays_.add(anchor.Phi_B)}};
   }
 
+  json pack(const results::Band& band) {
+    const auto add = [&](const std::vector<double>& list) {
+      return arrays_.add_doubles(
+          Eigen::Map<const VectorX>(list.data(), std::ssize(list)));
+    };
+    return {{"edges", add(band.edges)},
+            {"least", add(band.least)},
+            {"most", add(band.most)}};
+  }
+
   /// Places from the home, forces as they are.
   static MatrixX find_touch(const Contact& contact, const results::Home& home) {
     MatrixX touch = contact.touch;
@@ -198,10 +208,15 @@ class PageWriter {
                                   {"what", event.what}});
     }
     for (const Probe& probe : recording.probes) {
-      result["probes"].push_back(
-          {{"name", probe.name},
-           {"unit", probe.unit},
-           {"values", arrays_.add_doubles(probe.values)}});
+      json packed = {{"name", probe.name},
+                     {"unit", probe.unit},
+                     {"values", arrays_.add_doubles(probe.values)}};
+      if (probe.peak) {
+        packed["peak"] = {{"value", probe.peak->value},
+                          {"time", probe.peak->time}};
+      }
+      if (probe.band) packed["band"] = pack(*probe.band);
+      result["probes"].push_back(std::move(packed));
     }
   }
 

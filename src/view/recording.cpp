@@ -15,6 +15,7 @@
 #include "limber/common/piece_names.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/results_file.hpp"
+#include "limber/view/surface_edges.hpp"
 
 namespace limber::view {
 namespace {
@@ -23,31 +24,6 @@ namespace fs = std::filesystem;
 
 // Pages and scenes hold single precision, squares of it among them.
 constexpr double kLargest = 1e18;
-
-using Edge = std::pair<std::int64_t, std::int64_t>;
-
-/// Edges of a surface's triangles, by the tags of their nodes.
-void add_edges(const Surface& surface, std::vector<Edge>& edges) {
-  const std::vector<std::int64_t>& corners = surface.corners;
-  const auto tag_of = [&](std::size_t corner) {
-    return surface.tags[static_cast<std::size_t>(corners[corner])];
-  };
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-    edges.push_back(std::minmax({tag_of(i), tag_of(next)}));
-  }
-}
-
-/// Whether triangles bound a solid: an even number of them at every edge.
-bool are_closed(std::vector<Edge> edges) {
-  std::sort(edges.begin(), edges.end());
-  for (auto edge = edges.begin(); edge != edges.end();) {
-    const auto end = std::upper_bound(edge, edges.end(), *edge);
-    if ((end - edge) % 2 != 0) return false;
-    edge = end;
-  }
-  return true;
-}
 
 class RecordingReader {
  public:
@@ -219,8 +195,8 @@ class RecordingReader {
     std::map<std::string, std::vector<Edge>> edges;
     for (const Body& body : recording_.bodies) {
       if (body.surface < 0) continue;
-      add_edges(recording_.surfaces[std::size_t(body.surface)],
-                edges[find_whole(body.name)]);
+      const Surface& surface = recording_.surfaces[std::size_t(body.surface)];
+      add_edges(surface.tags, surface.corners, edges[find_whole(body.name)]);
     }
     std::vector<std::string> open;
     for (const auto& [link, all] : edges) {
@@ -388,10 +364,35 @@ class RecordingReader {
 
   void read_probes() {
     for (const std::string& step : in_.list("probes")) {
-      recording_.probes.push_back(
-          {results::from_path_step(step), in_.read_unit("probes/" + step),
-           matrix("probes/" + step, outputs(), 1).col(0)});
+      Probe probe{results::from_path_step(step),
+                  in_.read_unit("probes/" + step),
+                  matrix("probes/" + step, outputs(), 1).col(0)};
+      if (in_.has("peaks/" + step)) {
+        const MatrixX peak = matrix("peaks/" + step, 1, 2);
+        probe.peak = {peak(0, 0), peak(0, 1)};
+      }
+      if (in_.has("envelopes/" + step)) probe.band = read_band(step, probe);
+      recording_.probes.push_back(std::move(probe));
     }
+  }
+
+  // None if the curve through the outputs shows as much.
+  std::optional<results::Band> read_band(const std::string& step,
+                                         const Probe& probe) {
+    const MatrixX edges = matrix("envelope_edges", -1, 1);
+    if (edges.rows() < 2) fail("is damaged: its envelopes have no interval");
+    const MatrixX values =
+        matrix_with_gaps("envelopes/" + step, edges.rows() - 1, 2);
+    results::Band band{to_list(edges.col(0)), to_list(values.col(0)),
+                       to_list(values.col(1))};
+    if (!exceeds(band, to_list(recording_.times), to_list(probe.values))) {
+      return std::nullopt;
+    }
+    return band;
+  }
+
+  static std::vector<double> to_list(const VectorX& values) {
+    return {values.begin(), values.end()};
   }
 
   fs::path file_;

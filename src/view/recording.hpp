@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "limber/common/pose.hpp"
 #include "limber/common/types.hpp"
+#include "limber/results/band.hpp"
 #include "limber/results/solids.hpp"
 
 /// The content of results.h5 for pictures, in memory.
@@ -92,10 +94,19 @@ struct Event {
   std::string what;
 };
 
+/// The value of largest magnitude of all steps, signed.
+struct Peak {
+  double value = 0.0;  ///< [unit of the probe]
+  double time = 0.0;   ///< [s]
+};
+
 struct Probe {
   std::string name;
   std::string unit;
   VectorX values;  ///< T [`unit`]
+  std::optional<Peak> peak = {};
+  /// Where it reaches beyond the values at outputs.
+  std::optional<results::Band> band = {};
 };
 
 struct Recording {

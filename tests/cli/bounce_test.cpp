@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -93,6 +94,71 @@ INSTANTIATE_TEST_SUITE_P(Steps, Bounces,
                                            "tolerance = 1e-4",
                                            "tolerance = 1e-6", "step = 5e-6",
                                            "step = 1e-3", "step = 7e-3"));
+
+/// Columns of a line of a CSV file.
+std::vector<std::string> split_line(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) {
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+// Outputs lie 10 ms apart, the impact lasts 0.13 ms between two of them.
+TEST(BounceFiles, ShowTheForceOfAnImpactBetweenOutputs) {
+  const Workspace place;
+  place.write("ball.urdf", kBall);
+  place.write("s.toml",
+              write_scene("step = 2e-6") +
+                  "[[probe]]\nname = 'grip'\ncontact = ['floor', 'ball']\n"
+                  "quantity = 'force'\n");
+  const CommandResult result = place.limber(
+      "run s.toml --json --out o --set time.duration=0.25 "
+      "--set contact.0.restitution=1.0");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json report = json::parse(result.out);
+  // Hertz, two equal materials: F = k d^1.5, k = (4/3) E / (2 (1 - nu^2)) R^0.5
+  const double speed = std::sqrt(2.0 * kGravity * kHeight);
+  const double k = 4.0 / 3.0 * 210e9 / (2.0 * (1.0 - 0.09)) * std::sqrt(0.02);
+  const double depth = std::pow(1.25 * 0.26 * speed * speed / k, 0.4);
+  const double hertz = k * std::pow(depth, 1.5);
+  const double peak = report["probes"]["grip.fz"]["peak"];
+  EXPECT_NEAR(peak / hertz, 1.0, 0.01);
+
+  std::istringstream peaks(read_text(place.folder() / "o/peaks.csv"));
+  bool has_row = false;
+  for (std::string line; std::getline(peaks, line);) {
+    const auto fields = split_line(line);
+    if (fields.at(0) != "grip.fz") continue;
+    has_row = true;
+    EXPECT_EQ(fields.at(1), "N");
+    EXPECT_EQ(std::stod(fields.at(2)), peak);
+    EXPECT_EQ(std::stod(fields.at(3)),
+              report["probes"]["grip.fz"]["peak_time"].get<double>());
+  }
+  EXPECT_TRUE(has_row);
+
+  std::istringstream envelopes(read_text(place.folder() / "o/envelopes.csv"));
+  std::string line;
+  std::getline(envelopes, line);
+  const auto names = split_line(line);
+  const auto column = static_cast<std::size_t>(
+      std::find(names.begin(), names.end(), "grip.fz most [N]") -
+      names.begin());
+  ASSERT_LT(column, names.size());
+  double largest = 0.0;
+  int touched = 0;
+  int rows = 0;
+  for (; std::getline(envelopes, line); ++rows) {
+    const double most = std::stod(split_line(line).at(column));
+    largest = std::max(largest, most);
+    if (most > 0.0) ++touched;
+  }
+  EXPECT_EQ(rows, 25);
+  EXPECT_EQ(largest, peak);
+  EXPECT_EQ(touched, 1);
+}
 
 /// The speeds of three balls of 30 g of which one strikes two at 1 m/s that are
 /// `gap` apart.

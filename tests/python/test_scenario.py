@@ -241,6 +241,26 @@ def test_a_body_is_reduced_saved_and_read(tmp_path):
         limber.reduce(mesh, youngs_modulus=1.0, poisson_ratio=0.3, density=-1.0)
 
 
+def test_peaks_and_envelopes_are_those_of_all_steps(sled, tmp_path):
+    run = limber.load(sled).run()
+    run.save(tmp_path / "o")
+    for name in run.probes:
+        values, peak = run.probes[name], run.peaks[name]
+        summary = run.summary["probes"][name]
+        assert (peak.value, peak.time) == (summary["peak"], summary["peak_time"])
+        edges, least, most = run.envelopes[name]
+        assert len(edges) == len(least) + 1 == len(most) + 1
+        assert (edges[0], edges[-1]) == (run.time[0], run.time[-1])
+        assert max(most.max(), -least.min()) == abs(peak.value)
+        at = numpy.searchsorted(edges, run.time[1:], side="left") - 1
+        assert (least[at] <= values[1:]).all() and (values[1:] <= most[at]).all()
+    assert (tmp_path / "o/peaks.csv").read_text().count("\n") == 1 + len(run.peaks)
+    with pytest.raises(limber.InputError, match="'slad.ux'"):
+        run.peaks["slad.ux"]
+    with pytest.raises(limber.InputError, match="'slad.ux'"):
+        run.envelopes["slad.ux"]
+
+
 def test_a_notebook_shows_the_page_and_plots(sled):
     pyplot = pytest.importorskip("matplotlib.pyplot")
     run = limber.load(sled).run()

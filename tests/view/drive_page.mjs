@@ -70,6 +70,27 @@ async function compareLargest(tab) {
   assert.equal(peak, time, 'the moment of the largest deformation');
 }
 
+// Plots reach to the peaks of all steps, which summary.json has.
+async function comparePeaks(tab) {
+  const { probes } = JSON.parse(await readFile(`${folder}/run/summary.json`, 'utf8'));
+  const found = await tab.evaluate(() => window.limber.results[0].probes.map(
+    ({ name, peak }) => ({ name, ...peak })));
+  assert.ok(found.length > 0, 'the page has no probes');
+  for (const { name, value, time } of found) {
+    assert.equal(value, probes[name].peak, `peak of ${name}`);
+    assert.equal(time, probes[name].peak_time, `time of the peak of ${name}`);
+  }
+  const missed = await tab.evaluate(() => {
+    const { view } = window.limber;
+    view.probeGroups.forEach((group) => view.plots.has(group) || view.plots.add(group));
+    const out = view.plots.shown.flatMap(({ group, plot }) => group.series.filter(
+      ({ peak }) => !(plot.scales.y.min <= peak.value && peak.value <= plot.scales.y.max)));
+    view.probeGroups.forEach((group) => view.plots.remove(group));
+    return out.map(({ label }) => label);
+  });
+  assert.deepEqual(missed, [], 'peaks outside of their plots');
+}
+
 // By mouse, as users move it.
 async function checkSlider(tab) {
   const box = await tab.locator('#slider').boundingBox();
@@ -457,6 +478,7 @@ async function main() {
     await shoot(tab, 'default');
     const { worst, stated, count } = await comparePoints(tab);
     await compareLargest(tab);
+    await comparePeaks(tab);
     const start = await readPixels(tab);
     assert.ok(new Set(start).size > 20, 'the picture is blank');
     await tab.evaluate(() => window.limber.player.seek(window.limber.player.end));

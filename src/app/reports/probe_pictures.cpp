@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "limber/app/reports/event_report.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/pictures.hpp"
@@ -10,13 +12,28 @@
 namespace limber::app {
 namespace {
 
+results::Band make_band(const dynamics::Envelopes& envelopes,
+                        std::size_t column) {
+  const auto c = static_cast<Eigen::Index>(column);
+  const auto least = envelopes.least.col(c);
+  const auto most = envelopes.most.col(c);
+  return {envelopes.edges,
+          {least.begin(), least.end()},
+          {most.begin(), most.end()}};
+}
+
 results::Series make_series(const NamedHistory& line, std::size_t column) {
-  results::Series series{line.name, line.history->times, {}, {}};
-  if (line.peaks != nullptr && column < line.peaks->size()) {
-    series.peak = (*line.peaks)[column];
-  }
+  results::Series series{line.name, line.history->times, {}};
   for (const std::vector<double>& row : line.history->probe_rows) {
     series.values.push_back(row[column]);
+  }
+  const dynamics::RunRecord* record = line.record;
+  if (record == nullptr || column >= record->peaks.size()) return series;
+  series.peak = record->peaks[column];
+  if (record->envelopes.is_empty()) return series;
+  results::Band band = make_band(record->envelopes, column);
+  if (exceeds(band, series.times, series.values)) {
+    series.band = std::move(band);
   }
   return series;
 }

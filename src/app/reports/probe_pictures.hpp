@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/results/draw_all.hpp"
 #include "limber/results/history.hpp"
 
@@ -15,13 +15,14 @@ namespace limber::app {
 struct NamedHistory {
   std::string name;
   const results::History* history;
-  /// Of its columns, to be marked; null: none.
-  const std::vector<dynamics::Extreme>* peaks = nullptr;
+  /// Peaks of its columns, to be marked, and envelopes; null: none.
+  const dynamics::RunRecord* record = nullptr;
 };
 
 /// One picture per probe, "probe_NAME.png": its columns, one line per history.
 /// All have the columns of the first. A single history's events are marked.
-/// @param lines their histories must exist until the pictures are drawn
+/// @param lines their histories and records must exist until the pictures are
+/// drawn
 [[nodiscard]] std::vector<results::Picture> list_probe_pictures(
     const std::vector<NamedHistory>& lines,
     const std::filesystem::path& folder);

@@ -31,8 +31,14 @@ std::string describe_open(const Run& run) {
 
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
   results::write_results(folder / "results.h5", run.built.model, run.history,
-                         &run.scenery);
+                         &run.scenery, &run.record);
   results::write_probes_csv(folder / "probes.csv", run.history);
+  if (!run.record.peaks.empty()) {
+    results::write_peaks_csv(folder / "peaks.csv", run.history,
+                             run.record.peaks);
+    results::write_envelopes_csv(folder / "envelopes.csv", run.history,
+                                 run.record.envelopes);
+  }
   write_text(folder / "summary.json", to_text(summarize(run)));
   if (xdmf) {
     print_warnings(results::write_xdmf(folder / "motion.xdmf", run.built.model,
@@ -53,7 +59,7 @@ void draw_run(const Run& run, const std::filesystem::path& folder) {
                                run.history, run.scenery);
   }};
   std::ranges::move(
-      list_probe_pictures({{level, &run.history, &run.record.peaks}}, folder),
+      list_probe_pictures({{level, &run.history, &run.record}}, folder),
       std::back_inserter(pictures));
   pictures.emplace_back([&] {
     return results::draw_energy(folder / "energy.png",

@@ -51,6 +51,16 @@ void simulate(const scene::BuiltScene& built, const Progress& progress,
                      statistics, continuation, followed, record);
 }
 
+void include_outputs(const results::History& history,
+                     dynamics::Envelopes& envelopes) {
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    for (std::size_t c = 0; c < history.probe_rows[i].size(); ++c) {
+      dynamics::include(envelopes, c, history.probe_rows[i][c],
+                        history.times[i]);
+    }
+  }
+}
+
 void add_columns(Run& run) {
   for (const scene::Probe& probe : run.built.probes) {
     for (const auto& column : scene::column_names(probe)) {
@@ -198,6 +208,7 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
+  include_outputs(run.history, run.record.envelopes);
   for (std::string& text : find_cut_contacts(run.scene.robot, run.built.model,
                                              run.record.contacts)) {
     run.statistics.warnings.push_back(std::move(text));

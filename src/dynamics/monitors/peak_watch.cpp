@@ -76,8 +76,9 @@ void exchange(Archive& archive, PeakWatch::Sample& sample) {
   archive(sample.state, sample.values, sample.places);
 }
 
-PeakWatch::PeakWatch(const SystemModel& model, Followed followed)
-    : model_(model), followed_(std::move(followed)) {}
+PeakWatch::PeakWatch(const SystemModel& model, Followed followed,
+                     std::vector<double> edges)
+    : model_(model), followed_(std::move(followed)), edges_(std::move(edges)) {}
 
 void PeakWatch::start(const SystemState& state) {
   if (is_idle()) return;
@@ -85,6 +86,8 @@ void PeakWatch::start(const SystemState& state) {
   begin_ = between_ = within_ = state;
   peaks_.assign(followed_.courses.size(), {0.0, state.t});
   places_.assign(peaks_.size(), -1);
+  envelopes_ = make_envelopes(edges_, peaks_.size());
+  logged_until_ = state.t;
   if (followed_.spectator) followed_.spectator->begin();
   show(state);
   begin_anew(state);
@@ -244,7 +247,23 @@ void PeakWatch::exchange_memory(Archive& archive) {
     throw InputError("the record is of a run that followed other scalars");
   }
   if (followed_.spectator) followed_.spectator->exchange_memory(archive);
-  if (archive.reads()) begin_ = between_ = within_ = samples_[0].state;
+  if (!archive.reads()) return;
+  begin_ = between_ = within_ = samples_[0].state;
+  envelopes_ = make_envelopes(edges_, peaks_.size());
+  logged_until_ = sample(2).state.t;
+}
+
+// Later values lie after the oldest sample.
+std::vector<double> PeakWatch::take_log() {
+  Archive log;
+  write_intervals(envelopes_, logged_until_, sample(0).state.t, log);
+  logged_until_ = sample(2).state.t;
+  return log.numbers();
+}
+
+void PeakWatch::restore_log(const std::vector<double>& numbers) {
+  Archive log(numbers);
+  read_intervals(log, envelopes_);
 }
 
 }  // namespace limber::dynamics

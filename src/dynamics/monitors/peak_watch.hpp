@@ -7,6 +7,7 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/system/envelopes.hpp"
 
 namespace limber::dynamics {
 
@@ -18,8 +19,8 @@ struct PeakPoint {
 };
 using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 
-/// Extremes in time of a run's scalars, over all its steps; passes the states
-/// that it evaluates to their spectator.
+/// Extremes in time of a run's scalars, over all its steps and in intervals of
+/// time; passes the states that it evaluates to their spectator.
 ///
 /// Equation   a local extreme of three values in a row, at the ends of steps,
 ///            is searched for within the steps if the parabola through them
@@ -33,7 +34,9 @@ using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 class PeakWatch {
  public:
   /// @param model of the states; stored by reference
-  PeakWatch(const SystemModel& model, Followed followed);
+  /// @param edges of the intervals (dynamics/system/envelopes.hpp)
+  PeakWatch(const SystemModel& model, Followed followed,
+            std::vector<double> edges = {});
 
   /// The initial state of a run.
   void start(const SystemState& state);
@@ -43,15 +46,24 @@ class PeakWatch {
   void cross_jump(const SystemState& state);
   /// Ends the monitoring. @returns one entry per scalar
   const std::vector<Extreme>& finish();
-  /// finish(), and where each extreme was, -1 for nowhere
-  /// (Followed::find_place).
-  void tell(std::vector<Extreme>& peaks, std::vector<int>& places) {
+  /// finish(), where each extreme was, -1 for nowhere (Followed::find_place),
+  /// and the envelopes.
+  void tell(std::vector<Extreme>& peaks, std::vector<int>& places,
+            Envelopes& envelopes) {
     peaks = finish();
     places = places_;
+    envelopes = envelopes_;
   }
 
-  /// Saves or restores its state for checkpoints.
+  /// Saves or restores its state for checkpoints, except envelopes, which grow
+  /// with the run.
   void exchange_memory(Archive& archive);
+  /// The intervals that may have changed since the last call, for a
+  /// checkpoint's log. It may have values of steps after the checkpoint, which
+  /// a resumed run finds again.
+  [[nodiscard]] std::vector<double> take_log();
+  /// After exchange_memory(). @param log of all checkpoints
+  void restore_log(const std::vector<double>& log);
 
  private:
   // A state and its values; at a jump the values before it.
@@ -86,6 +98,7 @@ class PeakWatch {
     return followed_.find_place ? followed_.find_place(scalar) : -1;
   }
   void include(std::size_t scalar, const PeakPoint& point) {
+    dynamics::include(envelopes_, scalar, point.y, point.t);
     if (peaks_[scalar].include(point.y, point.t)) {
       places_[scalar] = point.place;
     }
@@ -102,6 +115,9 @@ class PeakWatch {
   std::vector<double> values_;
   std::vector<Extreme> peaks_;
   std::vector<int> places_;  // of the peaks
+  std::vector<double> edges_;
+  Envelopes envelopes_;
+  double logged_until_ = 0.0;  // later values are in no log [s]
 };
 
 }  // namespace limber::dynamics

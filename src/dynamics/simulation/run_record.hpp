@@ -11,6 +11,7 @@
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/observer.hpp"
 #include "limber/dynamics/simulation/simulation_statistics.hpp"
+#include "limber/dynamics/system/envelopes.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {
@@ -19,6 +20,7 @@ namespace limber::dynamics {
 struct RunRecord {
   std::vector<Extreme> peaks;  ///< of the followed scalars, in their order
   std::vector<int> places;     ///< of the peaks, -1: none (find_place)
+  Envelopes envelopes;         ///< of the followed scalars
   EnergyRecord energy;
   std::vector<ContactRecord> contacts;  ///< in the order of time
 };

@@ -53,7 +53,9 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
 void pass_time(const SystemModel& model, SystemState& state,
                const std::vector<double>& times, const Job& job,
                const TimeLoop::Visit& visit) {
-  PeakWatch peaks(model, job.followed);
+  PeakWatch peaks(model, job.followed,
+                  choose_envelope_edges(state.t, job.settings.output_times,
+                                        job.settings.end_time));
   SystemState now = state;
   peaks.start(now);
   for (const Breakpoint& mark :
@@ -62,7 +64,7 @@ void pass_time(const SystemModel& model, SystemState& state,
     peaks.include(now);
     if (mark.is_jump) peaks.cross_jump(now);
   }
-  peaks.tell(job.record.peaks, job.record.places);
+  peaks.tell(job.record.peaks, job.record.places, job.record.envelopes);
   for (const double t : times) {
     state.t = t;
     job.check(state);

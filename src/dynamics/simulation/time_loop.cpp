@@ -64,7 +64,9 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       stepper_(model, settings, statistics.events, refinement),
       sampling_(model, state.t),
       control_(make_budget(settings, state.t), settings.step, refinement),
-      peaks_(model, followed),
+      peaks_(model, followed,
+             choose_envelope_edges(state.t, settings.output_times,
+                                   settings.end_time)),
       audit_(model, settings.integrator),
       contacts_(model, settings.integrator,
                 settings.tolerance > 0.0 ? 0.0 : settings.step),
@@ -97,6 +99,7 @@ void TimeLoop::resume(const Checkpoint& checkpoint, SystemState& state) {
   if (checkpoint.numbers.empty()) return;  // of the start
   Archive archive(checkpoint.numbers);
   exchange_memory(archive, state);
+  peaks_.restore_log(checkpoint.log);
   sound_ = state;
 }
 
@@ -135,6 +138,7 @@ void TimeLoop::hold(Checkpoint checkpoint, const CheckpointKeeper& keeper) {
 
 void TimeLoop::keep_checkpoint(const CheckpointKeeper& keeper) {
   if (!checkpoint_) return;
+  checkpoint_->log = peaks_.take_log();
   keeper.keep(*checkpoint_);
   checkpoint_.reset();
   kept_ = Clock::now();
@@ -218,7 +222,7 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
 }
 
 void TimeLoop::tell(RunRecord& record) {
-  peaks_.tell(record.peaks, record.places);
+  peaks_.tell(record.peaks, record.places, record.envelopes);
   record.energy = audit_.find_energy();
   record.contacts = contacts_.find_records();
   audit_.add_warnings(statistics_.warnings);

@@ -30,15 +30,16 @@ double to_error(double allowed) { return std::cbrt(allowed * allowed); }
 double to_allowed(double error) { return error * std::sqrt(error); }
 double to_length(double allowed) { return std::cbrt(allowed); }  // of steps
 
-// Outputs of a pass.
+// Outputs of a pass, and the logs of its checkpoints.
 struct Record {
   int pass = 0;
   std::vector<SystemState> states;
   std::vector<EnergyBalance> balances;
+  std::vector<double> log = {};
 };
 
 constexpr auto fields_of(const Record*) {
-  return list_fields("record", "pass", "states", "balances");
+  return list_fields("record", "pass", "states", "balances", "log");
 }
 
 // Contents of a record from an output on, until another.
@@ -55,6 +56,7 @@ void append(const Record& part, Record& record) {
                        part.states.end());
   record.balances.insert(record.balances.end(), part.balances.begin(),
                          part.balances.end());
+  record.log.insert(record.log.end(), part.log.begin(), part.log.end());
 }
 
 // State between two passes, saved in checkpoints.
@@ -196,18 +198,19 @@ class ToleranceLoop {
     std::vector<double> numbers = inner.numbers;
     archive(numbers, course_);
     exchange_costs(archive, statistics_);
-    return {inner.time, archive.numbers(), take_log(inner.outputs)};
+    return {inner.time, archive.numbers(), take_log(inner)};
   }
 
   // The contents of the two current records that are in no log yet, of the
-  // current pass `outputs`.
-  std::vector<double> take_log(std::size_t outputs) {
+  // current pass until its checkpoint.
+  std::vector<double> take_log(const Checkpoint& inner) {
     Archive log;
     Record before = cut(before_, before_logged_, before_.states.size());
-    Record now = cut(now_, now_logged_, outputs);
+    Record now = cut(now_, now_logged_, inner.outputs);
+    now.log = inner.log;
     log(before, now);
     before_logged_ = before_.states.size();
-    now_logged_ = outputs;
+    now_logged_ = inner.outputs;
     return log.numbers();
   }
 
@@ -226,6 +229,7 @@ class ToleranceLoop {
       if (part.pass == before_.pass) append(part, before_);
       if (part.pass == now_.pass) append(part, now_);
     }
+    inner_->log = std::move(now_.log);
     before_logged_ = before_.states.size();
     now_logged_ = now_.states.size();
   }

@@ -1,6 +1,7 @@
 // Plots of probes and picked points over time, with a cursor at the page's time.
 import uPlot from 'uplot';
 import { labelTicks } from './colours.js';
+import { drawBands, drawPeaks, findRange } from './extremes.js';
 
 const kDashes = [[6, 4], [2, 3], [10, 3, 2, 3]]; // of ghosts
 const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b', '#b07aa1', '#76b7b2', '#9c755f'];
@@ -15,7 +16,10 @@ export function groupProbes(results) {
       const label = dot > 0 ? probe.name.slice(dot + 1) : probe.name;
       const id = `${name} [${probe.unit}]`;
       if (!groups.has(id)) groups.set(id, { name, unit: probe.unit, series: [] });
-      groups.get(id).series.push({ label, values: probe.values, times: result.times, ghost: r });
+      groups.get(id).series.push({
+        label, values: probe.values, times: result.times, ghost: r,
+        peak: probe.peak, band: probe.band,
+      });
     }
   });
   return [...groups.values()];
@@ -77,12 +81,19 @@ export class Plots {
     const style = getComputedStyle(document.body);
     const ink = style.getPropertyValue('--ink');
     const labels = [...new Set(group.series.map((s) => s.label))];
+    const colours = group.series.map(
+      (s) => kColours[labels.indexOf(s.label) % kColours.length]);
+    const findY = (u) => {
+      const { min, max } = u.scales.x;
+      const [least, most] = findRange(group.series, min ?? -Infinity, max ?? Infinity);
+      return uPlot.rangeNum(least, most, 0.1, true);
+    };
     const axis = { stroke: ink, grid: { stroke: style.getPropertyValue('--line'), width: 1 }, font: '11px sans-serif' };
     const plot = new uPlot(
       {
         ...this.sizeOf(box),
         title: `${group.name} [${group.unit}]`,
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: { range: findY } },
         cursor: { drag: { x: true, y: false }, points: { show: false } },
         legend: { live: false },
         axes: [
@@ -91,16 +102,22 @@ export class Plots {
         ],
         series: [
           { label: 'time' },
-          ...group.series.map((s) => ({
+          ...group.series.map((s, i) => ({
             label: s.ghost ? `${s.label} (${s.ghostName ?? `ghost ${s.ghost}`})` : s.label,
-            stroke: kColours[labels.indexOf(s.label) % kColours.length],
+            stroke: colours[i],
             width: s.ghost ? 1 : 1.5,
             dash: s.ghost ? kDashes[(s.ghost - 1) % kDashes.length] : undefined,
             points: { show: false },
             spanGaps: true,
           })),
         ],
-        hooks: { draw: [(u) => this.drawTime(u)] },
+        hooks: {
+          drawAxes: [(u) => drawBands(u, group.series, colours)],
+          draw: [
+            (u) => drawPeaks(u, group.series, colours, group.unit),
+            (u) => this.drawTime(u),
+          ],
+        },
       },
       align(group.series),
       box,

@@ -53,6 +53,32 @@ TEST(ProbesCsv, HeaderNamesEveryColumnWithItsUnit) {
             "time [s],tip.ux [m],wrist.wz [rad/s]");
 }
 
+TEST(PeaksCsv, HasOneRowAColumn) {
+  const TemporaryFolder folder;
+  History history = make_history();
+  history.columns[0].name = "a,b.ux";
+  write_peaks_csv(folder.path() / "p.csv", history,
+                  {{-1.0 / 3.0, 0.1}, {2.0, 0.25}});
+  EXPECT_EQ(test::read_bytes(folder.path() / "p.csv"),
+            "name,unit,peak,time [s]\n"
+            "\"a,b.ux\",m,-0.33333333333333331,0.10000000000000001\n"
+            "wrist.wz,rad/s,2,0.25\n");
+}
+
+TEST(EnvelopesCsv, HasOneRowAnInterval) {
+  const TemporaryFolder folder;
+  dynamics::Envelopes envelopes = dynamics::make_envelopes({0.0, 0.5, 1.0}, 2);
+  include(envelopes, 0, -1.0, 0.0);
+  include(envelopes, 0, 3.0, 0.25);
+  include(envelopes, 1, 7.0, 0.75);
+  write_envelopes_csv(folder.path() / "e.csv", make_history(), envelopes);
+  EXPECT_EQ(test::read_bytes(folder.path() / "e.csv"),
+            "from [s],to [s],tip.ux least [m],tip.ux most [m],"
+            "wrist.wz least [rad/s],wrist.wz most [rad/s]\n"
+            "0,0.5,-1,3,,\n"
+            "0.5,1,,,7,7\n");
+}
+
 TEST(ProbesCsv, HasOneRowAnOutputTime) {
   EXPECT_THAT(write_lines(make_history()), SizeIs(1 + 3));
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,15 +59,20 @@ std::vector<double> sample(double end, double interval) {
   return times;
 }
 
-std::vector<Extreme> run(const Kicked& scene,
-                         const SimulationSettings& settings,
-                         const Followed& followed) {
+RunRecord record_run(const Kicked& scene, const SimulationSettings& settings,
+                     const Followed& followed) {
   SimulationStatistics statistics;
   RunRecord record;
   SystemState state = scene.state;
   simulate(scene.model, state, settings, {}, {}, statistics, {}, followed,
            record);
-  return record.peaks;
+  return record;
+}
+
+std::vector<Extreme> run(const Kicked& scene,
+                         const SimulationSettings& settings,
+                         const Followed& followed) {
+  return record_run(scene, settings, followed).peaks;
 }
 
 class PeaksOf : public ::testing::TestWithParam<IntegratorKind> {};
@@ -124,6 +130,40 @@ TEST(Peaks, OfStepsToAToleranceAreThoseOfTheLastPass) {
   const std::vector<Extreme> peaks = run(scene, settings, follow_first());
   EXPECT_NEAR(peaks[0].value, 0.1, 2e-5);
   EXPECT_NEAR(peaks[0].time, 0.5 * pi / kOmega, 1e-3);
+}
+
+// Between outputs a fifth of a period and more apart, which show little of it.
+TEST(EnvelopesOfARun, AreThoseOfTheClosedFormInEachInterval) {
+  const Kicked scene = make_kicked(1.0);
+  for (const double tolerance : {0.0, 1e-6}) {
+    SimulationSettings settings;
+    settings.step = tolerance > 0.0 ? 1.0 : 2e-3;
+    settings.tolerance = tolerance;
+    settings.end_time = 1.0;
+    settings.output_times = {0.0, 0.13, 0.4, 0.41, 1.0};
+    const Envelopes found =
+        record_run(scene, settings, follow_first()).envelopes;
+    ASSERT_EQ(found.edges, settings.output_times);
+    ASSERT_EQ(found.least.rows(), 4);
+    constexpr double kScheme = 2e-4;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      double least = 1.0;
+      double most = -1.0;
+      const double from = found.edges[static_cast<std::size_t>(k)];
+      const double to = found.edges[static_cast<std::size_t>(k) + 1];
+      for (int i = 0; i <= 1000; ++i) {
+        const double x =
+            0.1 * std::sin(kOmega * (from + (to - from) * i / 1000));
+        least = std::min(least, x);
+        most = std::max(most, x);
+      }
+      // Free steps do not end on outputs: up to a step is missing there.
+      const double missed = tolerance > 0.0 ? 0.02 : 0.0;
+      EXPECT_NEAR(found.least(k, 0), least, kScheme + missed) << k;
+      EXPECT_NEAR(found.most(k, 0), most, kScheme + missed) << k;
+      EXPECT_NEAR(found.most(k, 2), -200.0 * least, 0.04 + 200.0 * missed) << k;
+    }
+  }
 }
 
 /// A mode of 50 rad/s and above under a load that begins at once: no steps.

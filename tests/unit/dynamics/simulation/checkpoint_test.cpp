@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "limber/common/errors.hpp"
@@ -94,6 +95,19 @@ Trace run(const Scene& scene, const SimulationSettings& settings,
   return trace;
 }
 
+/// Where there is no value, NaN.
+void expect_same(const Envelopes& whole, const Envelopes& rest) {
+  ASSERT_FALSE(whole.is_empty());
+  ASSERT_EQ(whole.edges, rest.edges);
+  for (Eigen::Index i = 0; i < whole.least.size(); ++i) {
+    ASSERT_FALSE(std::isnan(whole.least.data()[i]) !=
+                 std::isnan(rest.least.data()[i]));
+    if (std::isnan(whole.least.data()[i])) continue;
+    ASSERT_EQ(whole.least.data()[i], rest.least.data()[i]);
+    ASSERT_EQ(whole.most.data()[i], rest.most.data()[i]);
+  }
+}
+
 void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
   ASSERT_EQ(whole.states.size(), rest.states.size() + outputs);
   for (std::size_t i = 0; i < rest.states.size(); ++i) {
@@ -109,6 +123,7 @@ void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
   EXPECT_EQ(whole.statistics.factorizations, rest.statistics.factorizations);
   EXPECT_EQ(whole.statistics.events, rest.statistics.events);
   EXPECT_EQ(whole.record.peaks, rest.record.peaks);
+  expect_same(whole.record.envelopes, rest.record.envelopes);
   EXPECT_EQ(whole.statistics.warnings, rest.statistics.warnings);
   const EnergyRecord& a = whole.record.energy;
   const EnergyRecord& b = rest.record.energy;
