@@ -237,7 +237,7 @@ void read_interfaces(const Reader& reader, std::size_t count,
 }
 
 // The optional tables, by the layout's version.
-void read_tables(const Reader& reader, ReducedBody& body) {
+void read_tables(const Reader& reader, StressTables stress, ReducedBody& body) {
   const std::int64_t version = reader.integer("version");
   OtherTables has{version == kContactBodyFileVersion,
                   version == kManifoldBodyFileVersion};
@@ -254,7 +254,7 @@ void read_tables(const Reader& reader, ReducedBody& body) {
     body.contact_surfaces = read_contact_surfaces(reader, m, products);
   }
   if (has.manifold) read_manifold(reader, body);
-  if (version == kStressBodyFileVersion) {
+  if (version == kStressBodyFileVersion && stress == StressTables::needed) {
     read_stress_modes(reader, products, body);
   }
 }
@@ -334,7 +334,7 @@ void write_body(const ReducedBody& body, const std::filesystem::path& file) {
   }
 }
 
-ReducedBody read_body(const std::filesystem::path& file) {
+ReducedBody read_body(const std::filesystem::path& file, StressTables stress) {
   check_seal(file);
   const Hdf5File in = Hdf5File::open(file);
   const Reader reader(in, file);
@@ -369,7 +369,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
-  read_tables(reader, body);
+  read_tables(reader, stress, body);
   return body;
 }
 

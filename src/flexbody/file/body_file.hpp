@@ -31,10 +31,14 @@ inline constexpr int kStressBodyFileVersion = 10;
 /// @throws InputError if it cannot be written.
 void write_body(const ReducedBody& body, const std::filesystem::path& file);
 
+/// Whether the stress modes of a file are read; they are its largest tables.
+enum class StressTables { needed, skipped };
+
 /// @throws InputError if the file is missing, truncated, corrupt (even in a
 /// single bit), of another version, or holds values that are not finite or of
-/// wrong size.
-[[nodiscard]] ReducedBody read_body(const std::filesystem::path& file);
+/// wrong size. Stress modes that it lacks are none.
+[[nodiscard]] ReducedBody read_body(const std::filesystem::path& file,
+                                    StressTables stress = StressTables::needed);
 
 /// Updates the seal of a file that another tool has changed on purpose; its
 /// layout remains.

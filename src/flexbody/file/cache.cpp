@@ -18,14 +18,13 @@
 namespace limber::flexbody {
 namespace {
 
-// Increment when the reduction changes, to invalidate old entries.
+// Increment when the reduction or its stress modes change, to invalidate old
+// entries.
 constexpr int kReductionVersion = 7;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 3;
 // The same for second-order kinematics.
 constexpr int kManifoldVersion = 3;
-// The same for stress modes.
-constexpr int kStressVersion = 1;
 // The same for the cuts of meshes.
 constexpr int kPieceVersion = 2;
 
@@ -113,11 +112,6 @@ void add_request(const Recipe& recipe, Digest& digest) {
       digest.add(std::string(to_string(recipe.law)));
     }
   }
-  if (recipe.stress) {
-    digest.add(std::string("stress"));
-    digest.add(kStressVersion);
-    if (recipe.manifold) digest.add(std::string("of products"));
-  }
   if (recipe.is_estimate) digest.add(std::string("estimate"));
   if (recipe.contact_groups.empty()) return;
   digest.add(kContactVersion);
@@ -130,15 +124,18 @@ std::filesystem::path find_entry_place(const std::filesystem::path& folder,
   return folder / (key + ".h5");
 }
 
-// The entry if it exists, is undamaged and has the right key. Any other content
-// is ignored, since the body can be made again.
+// The entry if it exists, is undamaged, has the right key and the stress modes
+// that are needed. Any other content is ignored, since the body can be made
+// again.
 std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
-                                      const std::string& key) {
+                                      const std::string& key,
+                                      StressTables stress) {
   try {
     const std::filesystem::path file = find_entry_place(folder, key);
     if (!is_own_file(file)) return std::nullopt;
-    ReducedBody body = read_body(file);
-    if (body.content_key == key) {
+    ReducedBody body = read_body(file, stress);
+    const bool is_enough = body.stress || stress == StressTables::skipped;
+    if (body.content_key == key && is_enough) {
       note_use(file);
       return body;
     }
@@ -158,6 +155,13 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
     write_origin(file, mesh);
   } catch (const std::exception&) {
   }
+}
+
+// With stress modes, so that a later run that asks for stress need not reduce
+// it again; those of a manifold are many times larger, and computed on demand.
+ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
+  recipe.stress |= !recipe.manifold && !recipe.is_estimate;
+  return mesh.reduce(recipe);
 }
 
 }  // namespace
@@ -184,6 +188,7 @@ std::string recipe_key(const Recipe& recipe, const Piece& piece) {
   digest.add(recipe.mesh.size);
   digest.add(recipe.mesh.order);
   digest.add(recipe.mesh.unit);
+  digest.add(recipe.stress);
   add_request(recipe, digest);
   return digest.text();
 }
@@ -215,7 +220,9 @@ CachedBody load_or_reduce(const Recipe& recipe,
   const auto find = [&](const MeshRecord& mesh) -> std::optional<CachedBody> {
     const std::string key =
         content_key(recipe, find_piece_content(mesh.content, piece));
-    std::optional<ReducedBody> body = find_entry(folder, key);
+    std::optional<ReducedBody> body = find_entry(
+        folder, key,
+        recipe.stress ? StressTables::needed : StressTables::skipped);
     if (!body) return std::nullopt;
     // Links of equal shape share an entry; the name is the caller's.
     body->name = recipe.name;
@@ -231,9 +238,10 @@ CachedBody load_or_reduce(const Recipe& recipe,
     return std::move(*body);
   }
   if (piece.count > 1) mesh = mesh.take_piece(piece);
-  CachedBody made{mesh.reduce(recipe), false, mesh.record.notices};
+  CachedBody made{reduce_for_all(mesh, recipe), false, mesh.record.notices};
   made.body.content_key = content_key(recipe, mesh.record.content);
   keep_entry(made.body, recipe.mesh.file, folder);
+  if (!recipe.stress) made.body.stress.reset();
   return made;
 }
 

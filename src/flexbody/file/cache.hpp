@@ -36,13 +36,15 @@ struct Reducer {
 };
 
 /// Hash of everything that determines the reduced body: the recipe's values
-/// except its name, the mesh, the format version.
+/// except its name and whether stress modes are needed, the mesh, the format
+/// version.
 /// @param mesh MeshRecord::content
 [[nodiscard]] std::string content_key(const Recipe& recipe,
                                       const std::string& mesh);
 
-/// Hash of the request, with the mesh identified by its file's path: recipes of
-/// one key give the same body as long as no file changes.
+/// Hash of the whole request, stress modes too, with the mesh identified by its
+/// file's path: recipes of one key give the same body as long as no file
+/// changes.
 [[nodiscard]] std::string recipe_key(const Recipe& recipe,
                                      const Piece& piece = {});
 
@@ -61,6 +63,8 @@ struct CachedBody {
 /// or reduces it and stores it there. The key contains the mesh's content, so
 /// that equal meshes from different files share an entry. If the folder records
 /// which mesh would result (flexbody/file/mesh_index.hpp), none is made.
+/// Entries have stress modes whether the recipe asks for them or not, except
+/// with second-order kinematics; one without is replaced when they are needed.
 ///
 /// An entry that is damaged, has another key, belongs to another user or is
 /// writable by others is replaced; a folder that cannot be written only loses

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::ptrdiff_t kMostPoints = 24;  // of a cluster
 
-// w of a stress: its norm is the von Mises stress.
-Vector6 to_mises(const Vector6& s) {
-  Vector6 w;
-  w << s[0] - s[1], s[1] - s[2], s[2] - s[0], 0.0, 0.0, 0.0;
-  w.head<3>() *= std::sqrt(0.5);
-  w.tail<3>() = std::sqrt(3.0) * s.tail<3>();
-  return w;
-}
-
 }  // namespace
 
 StressClusters::StressClusters(const Matrix3X& p_L, const MatrixX& Sigma_L)
@@ -31,25 +22,20 @@ StressClusters::StressClusters(const Matrix3X& p_L, const MatrixX& Sigma_L)
   split(order_.begin(), order_.end(), p_L);
   const Eigen::Index m = Sigma_L.cols();
   const auto count = static_cast<Eigen::Index>(ends_.size());
-  centers_.setZero(6 * count, m);
   radii_.setZero(count, m);
   int first = 0;
   for (Eigen::Index c = 0; c < count; ++c) {
     const int end = ends_[static_cast<std::size_t>(c)];
-    for (Eigen::Index k = 0; k < m; ++k) {
-      const auto w_of = [&](int i) {
-        const Eigen::Index point = order_[index(i)];
-        return to_mises(Sigma_L.block<6, 1>(6 * point, k));
-      };
-      Vector6 center = Vector6::Zero();
-      for (int i = first; i < end; ++i) center += w_of(i) / (end - first);
-      centers_.block<6, 1>(6 * c, k) = center;
-      for (int i = first; i < end; ++i) {
-        radii_(c, k) = std::max(radii_(c, k), (w_of(i) - center).norm());
+    for (int i = first; i < end; ++i) {
+      const Eigen::Index point = order_[index(i)];
+      for (Eigen::Index k = 0; k < m; ++k) {
+        const Vector6 stress = Sigma_L.block<6, 1>(6 * point, k);
+        radii_(c, k) = std::max(radii_(c, k), flexbody::calc_von_mises(stress));
       }
     }
     first = end;
   }
+  widest_ = radii_.colwise().maxCoeff();
 }
 
 // Halves along the longest edge of the bounding box.
@@ -75,40 +61,71 @@ void StressClusters::split(std::vector<int>::iterator first,
   split(middle, last, p_L);
 }
 
+void StressClusters::calc_bounds(const Eigen::Ref<const VectorX>& eta) const {
+  Scratch& s = scratch_;
+  if (s.references.size() == 0) {
+    s.references.setZero(radii_.rows(), radii_.cols());
+    s.largest.setZero(radii_.rows());
+    s.stress.resize(6 * kMostPoints);
+    s.next.reserve(ends_.size());
+  }
+  s.bounds = s.largest;
+  for (Eigen::Index k = 0; k < eta.size(); ++k) {
+    s.bounds.array() +=
+        radii_.col(k).array() * (s.references.col(k).array() - eta[k]).abs();
+  }
+}
+
+void StressClusters::evaluate(int cluster, const MatrixX& Sigma_L,
+                              const Eigen::Ref<const VectorX>& eta,
+                              Largest& found) const {
+  Scratch& s = scratch_;
+  const int first = cluster == 0 ? 0 : ends_[index(cluster - 1)];
+  const int count = ends_[index(cluster)] - first;
+  s.stress.head(6 * count).noalias() =
+      Sigma_L.middleRows(6 * first, 6 * count) * eta;
+  double largest = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Vector6 stress = s.stress.segment<6>(6 * Eigen::Index{i});
+    const double value = flexbody::calc_von_mises(stress);
+    largest = std::max(largest, value);
+    const bool is_first = first + i < found.point;
+    if (value > found.von_mises || (value == found.von_mises && is_first)) {
+      found = {first + i, value, stress};
+      s.last = cluster;
+    }
+  }
+  s.references.row(cluster) = eta.transpose();
+  s.largest[cluster] = largest;
+}
+
 StressClusters::Largest StressClusters::find(
     const MatrixX& Sigma_L, const Eigen::Ref<const VectorX>& eta) const {
   Scratch& s = scratch_;
-  s.magnitudes = eta.cwiseAbs();
-  s.centers.resize(centers_.rows());
-  s.centers.noalias() = centers_ * eta;
-  s.bounds.resize(radii_.rows());
-  s.bounds.noalias() = radii_ * s.magnitudes;
-  s.bounds += s.centers.reshaped(6, radii_.rows()).colwise().norm().transpose();
+  calc_bounds(eta);
   if (!s.bounds.allFinite()) {  // a run that diverges
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     return {0, kNone, Vector6::Constant(kNone)};
   }
-  s.next.resize(ends_.size());
-  std::iota(s.next.begin(), s.next.end(), 0);
-  std::sort(s.next.begin(), s.next.end(),
-            [&](int a, int b) { return s.bounds[a] > s.bounds[b]; });
-  s.stress.resize(6 * kMostPoints);
-  // The bounds' own round-off.
-  constexpr double kRoundOff = 1e-12;
-  Largest largest;
-  for (const int c : s.next) {
-    if (s.bounds[c] * (1.0 + kRoundOff) < largest.von_mises) break;
-    const int first = c == 0 ? 0 : ends_[index(c - 1)];
-    const int count = ends_[index(c)] - first;
-    s.stress.head(6 * count).noalias() =
-        Sigma_L.middleRows(6 * first, 6 * count) * eta;
-    for (int i = 0; i < count; ++i) {
-      const Vector6 stress = s.stress.segment<6>(6 * i);
-      const double value = flexbody::calc_von_mises(stress);
-      if (value > largest.von_mises) largest = {first + i, value, stress};
+  // Round-off of a stress in which modes cancel.
+  constexpr double kRoundOff = 1e-13;
+  const double slack = kRoundOff * widest_.dot(eta.cwiseAbs());
+  Largest found;
+  const int begin = s.last;
+  evaluate(begin, Sigma_L, eta, found);
+  s.next.clear();
+  for (int c = 0; c < static_cast<int>(ends_.size()); ++c) {
+    if (c != begin && s.bounds[c] + slack >= found.von_mises) {
+      s.next.push_back(c);
     }
   }
-  return largest;
+  std::sort(s.next.begin(), s.next.end(),
+            [&](int a, int b) { return s.bounds[a] > s.bounds[b]; });
+  for (const int c : s.next) {
+    if (s.bounds[c] + slack < found.von_mises) break;
+    evaluate(c, Sigma_L, eta, found);
+  }
+  return found;
 }
 
 }  // namespace limber::scene

@@ -9,11 +9,12 @@ namespace limber::scene {
 
 /// Finds the point with the largest von Mises stress without evaluating all.
 ///
-/// Equation   |w_p eta| <= |w_c eta| + sum_k r_ck |eta_k| for the points p of
-///            a cluster c, with w sigma = von Mises stress in norm, w_c the
-///            mean of w_p and r_ck the largest |(w_p - w_c)_k|
-/// Limits     exact; the fewer points are evaluated the more localised the
-///            stress is
+/// Equation   |w_p eta| <= M_c + sum_k r_ck |(eta - eta_c)_k| for the points p
+///            of a cluster c, with w sigma = von Mises stress in norm, r_ck the
+///            largest |(w_p)_k|, and M_c = max |w_p eta_c| of the eta_c at
+///            which the cluster was evaluated last, at first zero
+/// Limits     exact; few points are evaluated where eta changes little from one
+///            call to the next, as between the steps of a run
 class StressClusters {
  public:
   StressClusters() = default;
@@ -22,8 +23,9 @@ class StressClusters {
 
   /// Points in the order of clusters: index of each in the arguments.
   [[nodiscard]] const std::vector<int>& order() const { return order_; }
-  /// Index of the largest in that order, and its stress.
-  /// @param Sigma_L 6p x m, in that order
+  /// Index of the largest in that order, of equal ones the first, and its
+  /// stress. It depends on the arguments alone.
+  /// @param Sigma_L 6p x m, in that order, the same in all calls
   /// Allocates in the first call only.
   struct Largest {
     int point = 0;
@@ -35,19 +37,23 @@ class StressClusters {
 
  private:
   struct Scratch {
-    VectorX magnitudes;  // |eta|
-    VectorX centers;     // 6c
-    VectorX bounds;      // c
+    MatrixX references;  // c x m: eta_c
+    VectorX largest;     // c: M_c [Pa]
+    VectorX bounds;      // c [Pa]
+    VectorX stress;      // of a cluster
     std::vector<int> next;
-    VectorX stress;  // of a cluster
+    int last = 0;  // the cluster that had the largest
   };
   void split(std::vector<int>::iterator first, std::vector<int>::iterator last,
              const Matrix3X& p_L);
+  void calc_bounds(const Eigen::Ref<const VectorX>& eta) const;
+  void evaluate(int cluster, const MatrixX& Sigma_L,
+                const Eigen::Ref<const VectorX>& eta, Largest& found) const;
 
   std::vector<int> order_;
-  std::vector<int> ends_;  // of each cluster in the order
-  MatrixX centers_;        // 6c x m
-  MatrixX radii_;          // c x m
+  std::vector<int> ends_;      // of each cluster in the order
+  MatrixX radii_;              // c x m: r_ck
+  Eigen::RowVectorXd widest_;  // m: the largest of all clusters
   mutable Scratch scratch_;
 };
 

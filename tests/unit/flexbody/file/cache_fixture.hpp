@@ -33,6 +33,9 @@ class Cache : public ::testing::Test {
                                   ++reductions_;
                                   ReducedBody body = make_small_body(1);
                                   body.name = r.name;
+                                  if (makes_stress_ && r.stress) {
+                                    add_stress(body);
+                                  }
                                   return body;
                                 }};
             }};
@@ -56,6 +59,21 @@ class Cache : public ::testing::Test {
   }
   [[nodiscard]] std::string key() const {
     return content_key(recipe_, make_record(recipe_.mesh).content);
+  }
+  // Of one point a row.
+  static void add_stress(ReducedBody& body) {
+    const auto rows = std::ssize(body.rows.tags);
+    const Eigen::Index m = body.lambda.size();
+    StressModes& modes = body.stress.emplace();
+    for (std::size_t row = 0; row < body.rows.tags.size(); ++row) {
+      modes.rows.push_back(row);
+    }
+    modes.materials.assign(body.rows.tags.size(), 0);
+    modes.on_surface.assign(body.rows.tags.size(), 1);
+    modes.Sigma_B = MatrixX::Ones(6 * rows, m);
+    modes.averaging = MatrixX::Identity(m, m);
+    modes.constants = Eigen::Vector2d(70e9, 0.3);
+    modes.interface_rows.resize(body.interfaces.size());
   }
   // The entry was unusable: it is made again, and then used.
   void expect_made_anew() {
@@ -94,6 +112,7 @@ class Cache : public ::testing::Test {
   TemporaryFolder folder_;
   Recipe recipe_;
   bool is_repeatable_ = true;
+  bool makes_stress_ = false;  // as the library does
   std::atomic<int> meshes_ = 0;
   std::atomic<int> reductions_ = 0;
 };

@@ -35,6 +35,40 @@ TEST_F(Cache, ReducesAgainForAnotherRecipe) {
   EXPECT_EQ(reductions_, 2);
 }
 
+// The body is reduced once, with the tables, whichever run comes first.
+TEST_F(Cache, HasStressModesForALaterRunThatAsksForThem) {
+  makes_stress_ = true;
+  const CachedBody plain = ask();
+  EXPECT_FALSE(plain.was_cached);
+  EXPECT_FALSE(plain.body.stress);
+  EXPECT_FALSE(ask().body.stress);
+  recipe_.stress = true;
+  const CachedBody stressed = ask();
+  EXPECT_TRUE(stressed.was_cached);
+  ASSERT_TRUE(stressed.body.stress);
+  EXPECT_EQ(reductions_, 1);
+  EXPECT_EQ(plain.body.content_key, stressed.body.content_key);
+  recipe_.stress = false;
+  EXPECT_TRUE(ask().was_cached);
+}
+
+// Of an earlier version, or of a body with second-order kinematics.
+TEST_F(Cache, AddsStressModesToAnEntryWithout) {
+  recipe_.manifold = true;
+  makes_stress_ = true;
+  EXPECT_FALSE(ask().body.stress);
+  EXPECT_FALSE(read_body(entry()).stress);
+  recipe_.stress = true;
+  const CachedBody stressed = ask();
+  EXPECT_FALSE(stressed.was_cached);
+  EXPECT_TRUE(stressed.body.stress);
+  EXPECT_TRUE(read_body(entry()).stress);
+  EXPECT_TRUE(ask().was_cached);
+  recipe_.stress = false;
+  EXPECT_TRUE(ask().was_cached);
+  EXPECT_EQ(reductions_, 2);
+}
+
 TEST_F(Cache, ReducesAgainForAnotherMesh) {
   (void)ask();
   write_bytes(recipe_.mesh.file, "another mesh");

@@ -73,6 +73,37 @@ TEST_P(Clusters, FindTheLargestOfAllPoints) {
   }
 }
 
+// What an earlier call has seen bounds the stress of the next: steps of a
+// motion, with jumps, back to what was, and to nothing.
+TEST_P(Clusters, FindTheLargestOfASlowMotion) {
+  Field field(GetParam().first, GetParam().second);
+  const StressClusters clusters(field.p, field.Sigma);
+  MatrixX ordered(field.Sigma.rows(), 7);
+  for (std::size_t i = 0; i < clusters.order().size(); ++i) {
+    ordered.middleRows(6 * static_cast<Eigen::Index>(i), 6) =
+        field.Sigma.middleRows(6 * clusters.order()[i], 6);
+  }
+  const VectorX a = field.draw_eta();
+  const VectorX b = field.draw_eta();
+  for (int step = 0; step < 400; ++step) {
+    const double angle = (step % 150) * 0.03;
+    VectorX eta = std::sin(angle) * a + std::cos(7.0 * angle) * b;
+    if (step % 97 == 0) eta.setZero();
+    if (step % 101 == 0) eta *= 1e6;
+    const auto found = clusters.find(ordered, eta);
+    // A search without memory.
+    const auto anew = StressClusters(field.p, field.Sigma).find(ordered, eta);
+    ASSERT_EQ(found.point, anew.point) << step;
+    ASSERT_EQ(found.von_mises, anew.von_mises) << step;
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < field.p.cols(); ++i) {
+      largest =
+          std::max(largest, mises(Vector6(ordered.middleRows(6 * i, 6) * eta)));
+    }
+    ASSERT_NEAR(found.von_mises, largest, 1e-12 * largest) << step;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Fields, Clusters,
     ::testing::Values(std::pair(1, 0.1), std::pair(24, 0.1), std::pair(25, 0.0),
@@ -91,6 +122,10 @@ TEST(StressClusters, OfADivergingRunAreNotANumber) {
   VectorX eta = VectorX::Ones(7);
   eta[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(clusters.find(field.Sigma, eta).von_mises));
+  eta.setConstant(1e308);
+  EXPECT_TRUE(std::isnan(clusters.find(field.Sigma, eta).von_mises));
+  eta.setOnes();  // forgets it
+  EXPECT_GT(clusters.find(field.Sigma, eta).von_mises, 0.0);
 }
 
 }  // namespace
