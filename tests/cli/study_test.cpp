@@ -259,6 +259,52 @@ TEST_F(AStudy, TellsHowItsResponsesAreDistributed) {
   }
 }
 
+// Ishigami's function with a constant 100: closed forms of its effects, which
+// samples of a response far from zero must not lose.
+TEST_F(AStudy, TellsEffectsOfFactorsWhereItsSamplesCarryThem) {
+  const auto make = [&](int samples) {
+    std::string text =
+        "scenario = 's.toml'\nset = ['time.duration=0.001']\n"
+        "[design]\nkind = 'sobol'\nsamples = " +
+        std::to_string(samples) + "\n";
+    for (const char* name : {"a", "b", "c"}) {
+      text += fmt::format(
+          "[[factor]]\nname = '{}'\npath = 'load.push.force.{}'\nuniform = "
+          "[-3.141592653589793, 3.141592653589793]\n",
+          name, name[0] - 'a');
+    }
+    return text +
+           "[[response]]\nname = 'y'\nexpression = '100 + sin(a) + "
+           "7 * sin(b)^2 + 0.1 * c^4 * sin(a)'\n";
+  };
+  place_.write("study.toml", make(256));
+  const json effects = json::parse(
+      run("study.toml --out a --json"))["responses"]["y"]["effects"];
+  const std::pair<const char*, double> truth[] = {
+      {"a", 0.31390519}, {"b", 0.44241114}, {"c", 0.0}};
+  for (const auto& [name, main] : truth) {
+    const json& effect = effects[name];
+    EXPECT_LE(effect["main_interval"][0], main) << name;
+    EXPECT_GE(effect["main_interval"][1], main) << name;
+    EXPECT_NEAR(effect["main"].get<double>(), main, 0.1) << name;
+    EXPECT_FALSE(effect.contains("doubt")) << name;
+  }
+  place_.write("study.toml", make(12));
+  EXPECT_THAT(run("study.toml --out b"),
+              HasSubstr("cannot tell with 12 samples"));
+  const json few = json::parse(run("study.toml --out b --json"));
+  EXPECT_TRUE(few["responses"]["y"]["effects"]["a"]["main"].is_null());
+}
+
+// x grows with the force at any stiffness, but is no line of it.
+TEST_F(AStudy, CorrelatesResponsesWithFactors) {
+  const json x =
+      json::parse(run("study.toml --out a --json"))["responses"]["x"];
+  EXPECT_TRUE(x["correlations"].contains("force"));
+  EXPECT_EQ(x["correlations"]["stiffness"]["samples"], 12);
+  EXPECT_THAT(run("study.toml --out a"), HasSubstr("of ranks"));
+}
+
 TEST_F(AStudy, OpensARunAgainWithItsPage) {
   (void)run("study.toml --out a");
   const CommandResult result =

@@ -75,21 +75,21 @@ void finish(const StudyCommandOptions& options, const fs::path& file,
   const StudyFile results(file);
   const StudyRecord& record = results.record();
   const std::vector<StudyRow> rows = results.read_rows();
-  const Effects effects = find_effects(record.study, record.runs, rows);
+  const StudyFindings findings = find_findings(record.study, record.runs, rows);
   if (options.csv) {
     write_text(fs::path(file).replace_extension(".csv"),
                to_csv(record.study, rows));
   }
-  if (record.shards == 1) draw_study(record.study, rows, effects, folder);
+  if (record.shards == 1) draw_study(record.study, rows, findings, folder);
   if (options.json) {
-    Json json = to_json(record.study, record.runs, rows, effects);
+    Json json = to_json(record.study, record.runs, rows, findings);
     json["file"] = file.string();
     json["seconds"] = cost.seconds;
     json["seconds_steps"] = cost.seconds_steps;
     fmt::print("{}\n", to_text(json));
     return;
   }
-  fmt::print("{}", to_text(record.study, rows, effects));
+  fmt::print("{}", to_text(record.study, record.runs, rows, findings));
   if (cost.runs > 0) {
     fmt::print("{} runs in {:.3g} s, {:.3g} s of steps\n", cost.runs,
                cost.seconds, cost.seconds_steps);

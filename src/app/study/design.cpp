@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -240,6 +241,14 @@ std::string find_value(const Factor& factor, double u) {
   }
   const Normal& normal = std::get<Normal>(factor.values);
   return to_text(normal.mean + normal.deviation * find_normal_quantile(u));
+}
+
+std::optional<double> find_number(const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
 }
 
 Design make_design(const Study& study) {

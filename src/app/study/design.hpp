@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ inline constexpr int kMostRuns = 10'000'000;
 /// `latin-hypercube`: each of n intervals of equal probability of each factor
 /// once. `sobol`: for each of n points of Sobol's sequence in 2 d dimensions,
 /// (A, B), d + 2 runs: A, B, and A with one coordinate of B each, from which
-/// find_sampled_effects has its indices.
+/// find_effects has its indices.
 ///
 /// Source     Saltelli et al. (2010) [@saltelli2010]
 /// @throws InputError naming a factor whose values do not suit the design.
@@ -36,6 +37,9 @@ inline constexpr int kMostRuns = 10'000'000;
 ///
 /// Source     Wichura (1988), algorithm AS 241, 16 digits [@wichura1988]
 [[nodiscard]] double find_normal_quantile(double u);
+
+/// A value that is a number; none of texts and arrays.
+[[nodiscard]] std::optional<double> find_number(const std::string& value);
 
 /// The overrides that turn the scenario into the run with these values.
 [[nodiscard]] scene::Overrides to_overrides(

@@ -11,14 +11,17 @@ namespace {
 
 constexpr double kMissed = 0.05;  // 1 - confidence
 
-/// Runs that are samples of the factors' distribution: not those of `sobol`
-/// that share values with others.
+}  // namespace
+
+bool is_sampled(const Study& study) {
+  return study.design.kind != DesignKind::grid &&
+         study.design.kind != DesignKind::list;
+}
+
 bool is_sample(const Study& study, std::size_t run) {
   return study.design.kind != DesignKind::sobol ||
          run % (study.factors.size() + 2) < 2;
 }
-
-}  // namespace
 
 double Distribution::quantile(double p) const {
   const double rank = std::ceil(p * static_cast<double>(values.size()));
@@ -29,8 +32,7 @@ double Distribution::quantile(double p) const {
 std::optional<Distribution> find_distribution(const Study& study,
                                               const std::vector<StudyRow>& rows,
                                               std::size_t response) {
-  const DesignKind kind = study.design.kind;
-  if (kind == DesignKind::grid || kind == DesignKind::list) return std::nullopt;
+  if (!is_sampled(study)) return std::nullopt;
   Distribution found;
   for (const StudyRow& row : rows) {
     const auto& value = row.responses[response];

@@ -27,6 +27,13 @@ struct Distribution {
   [[nodiscard]] double quantile(double p) const;
 };
 
+/// Whether values of the factors are drawn: `monte-carlo`, `latin-hypercube`,
+/// `sobol`.
+[[nodiscard]] bool is_sampled(const Study& study);
+/// Runs that are samples of the factors' distribution: not those of `sobol`
+/// that share values with others.
+[[nodiscard]] bool is_sample(const Study& study, std::size_t run);
+
 /// For a sampled design, for `sobol` over its independent runs; none for other
 /// designs, or for fewer than two values.
 [[nodiscard]] std::optional<Distribution> find_distribution(

@@ -5,11 +5,11 @@
 #include <muParser.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "limber/app/reports/stress_report.hpp"
+#include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -175,14 +175,6 @@ class Evaluation {
   const Run& run_;
   std::optional<Json> json_;
 };
-
-Value to_number(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
 
 /// A formula's value with these variables; none if it uses one without value.
 Value evaluate(const std::string& formula, std::map<std::string, Value> known) {
@@ -357,7 +349,7 @@ void evaluate_formulas(const Study& study,
                        ResponseValues& values) {
   std::map<std::string, Value> known;
   for (std::size_t f = 0; f < factors.size(); ++f) {
-    known[study.factors[f].name] = to_number(factors[f]);
+    known[study.factors[f].name] = find_number(factors[f]);
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Response& response = study.responses[i];

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/study/distribution.hpp"
@@ -18,14 +18,6 @@ namespace limber::app {
 namespace {
 
 using results::StudyColumn;
-
-std::optional<double> find_number(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
 
 /// A factor with a text among its values is drawn by the numbers of its texts.
 StudyColumn make_factor(const Study& study, const std::vector<StudyRow>& rows,
@@ -63,21 +55,50 @@ StudyColumn make_response(const Study& study, const std::vector<StudyRow>& rows,
   return column;
 }
 
-std::vector<results::EffectBars> make_bars(const Study& study,
-                                           const Effects& effects) {
-  std::vector<results::EffectBars> all;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+results::Bar make_bar(double value, const std::optional<Interval>& interval,
+                      bool is_told) {
+  const Interval range = interval.value_or(Interval{value, value});
+  return {is_told ? value : kNone, range.low, range.high};
+}
+
+using TwoBars = std::optional<std::pair<results::Bar, results::Bar>>;
+
+/// Bars of all factors for each response, of which `bars_of(factor, response)`
+/// gives the two, or none.
+template <typename BarsOf>
+std::vector<results::FactorBars> make_bars(const Study& study, BarsOf bars_of) {
+  std::vector<results::FactorBars> all;
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
-    results::EffectBars bars;
+    results::FactorBars bars;
     bars.response = study.responses[r].name;
-    for (std::size_t f = 0; f < effects.size(); ++f) {
-      if (!effects[f][r]) continue;
+    for (std::size_t f = 0; f < study.factors.size(); ++f) {
+      const TwoBars two = bars_of(f, r);
+      if (!two) continue;
       bars.factors.push_back(study.factors[f].name);
-      bars.main.push_back(effects[f][r]->main);
-      bars.total.push_back(effects[f][r]->total);
+      bars.first.push_back(two->first);
+      bars.second.push_back(two->second);
     }
     if (!bars.factors.empty()) all.push_back(bars);
   }
   return all;
+}
+
+TwoBars make_effect_bars(const Effects& effects, std::size_t f, std::size_t r) {
+  if (f >= effects.size() || !effects[f][r]) return std::nullopt;
+  const Effect& effect = *effects[f][r];
+  const bool is_told = !effect.samples_needed;
+  return std::pair(make_bar(effect.main, effect.main_interval, is_told),
+                   make_bar(effect.total, effect.total_interval, is_told));
+}
+
+TwoBars make_correlation_bars(const Correlations& found, std::size_t f,
+                              std::size_t r) {
+  if (f >= found.size() || !found[f][r]) return std::nullopt;
+  const Correlation& one = *found[f][r];
+  return std::pair(make_bar(one.linear, one.linear_interval, true),
+                   make_bar(one.rank, one.rank_interval, true));
 }
 
 std::vector<results::DistributionCurve> make_curves(
@@ -95,7 +116,8 @@ std::vector<results::DistributionCurve> make_curves(
 }  // namespace
 
 void draw_study(const Study& study, const std::vector<StudyRow>& rows,
-                const Effects& effects, const std::filesystem::path& folder) {
+                const StudyFindings& findings,
+                const std::filesystem::path& folder) {
   if (rows.empty()) return;
   std::vector<StudyColumn> factors;
   std::vector<StudyColumn> responses;
@@ -124,9 +146,22 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
     });
   }
   pictures.emplace_back([&] {
-    return draw_effects(folder / "effects.png",
-                        study.name + ": effects of factors",
-                        make_bars(study, effects));
+    return draw_bars(
+        folder / "effects.png",
+        study.name + ": effects of factors, with intervals of 95 %",
+        {"main", "total", "share of the variance [-]", "[*<0:1.05<*]"},
+        make_bars(study, [&](std::size_t f, std::size_t r) {
+          return make_effect_bars(findings.effects, f, r);
+        }));
+  });
+  pictures.emplace_back([&] {
+    return draw_bars(
+        folder / "correlation.png",
+        study.name + ": correlation with factors, with intervals of 95 %",
+        {"of values", "of ranks", "correlation [-]", "[-1.05:1.05]"},
+        make_bars(study, [&](std::size_t f, std::size_t r) {
+          return make_correlation_bars(findings.correlations, f, r);
+        }));
   });
   pictures.emplace_back([&] {
     return draw_distributions(

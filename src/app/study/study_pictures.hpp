@@ -11,9 +11,11 @@ namespace limber::app {
 
 /// Draws each response over each factor (`response_NAME.png`) and over each
 /// pair of factors (`map_NAME.png`), all quantities over each other
-/// (`matrix.png`), the effects (`effects.png`), and the distributions
-/// (`distribution.png`). A picture that fails gives a warning.
+/// (`matrix.png`), the effects (`effects.png`), the correlations
+/// (`correlation.png`), and the distributions (`distribution.png`). A picture
+/// that fails gives a warning.
 void draw_study(const Study& study, const std::vector<StudyRow>& rows,
-                const Effects& effects, const std::filesystem::path& folder);
+                const StudyFindings& findings,
+                const std::filesystem::path& folder);
 
 }  // namespace limber::app

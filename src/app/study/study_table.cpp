@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "limber/app/study/distribution.hpp"
 
@@ -19,80 +18,6 @@ std::string quote_cell(const std::string& text) {
     if (c == '"') quoted += c;
   }
   return quoted + "\"";
-}
-
-/// The response of every run; empty if one is missing.
-std::vector<double> list_values(const std::vector<StudyRow>& rows,
-                                std::size_t runs, std::size_t response) {
-  if (rows.size() != runs) return {};
-  std::vector<double> values;
-  for (const StudyRow& row : rows) {
-    if (!row.responses[response]) return {};
-    values.push_back(*row.responses[response]);
-  }
-  return values;
-}
-
-double calc_mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double calc_variance(const std::vector<double>& values) {
-  const double mean = calc_mean(values);
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return sum / static_cast<double>(values.size());
-}
-
-/// Rows of each sample: A, B, then A with the k-th coordinate of B.
-std::optional<Effect> find_sampled(const std::vector<double>& y,
-                                   std::size_t factors, std::size_t k) {
-  const std::size_t block = factors + 2;
-  std::vector<double> free;  // of A and B
-  double main = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < y.size(); i += block) {
-    free.push_back(y[i]);
-    free.push_back(y[i + 1]);
-    const double changed = y[i + 2 + k];
-    main += y[i + 1] * (changed - y[i]);
-    total += 0.5 * (y[i] - changed) * (y[i] - changed);
-  }
-  const double variance = calc_variance(free);
-  if (!(variance > 0.0)) return std::nullopt;
-  const std::size_t count = y.size() / block;
-  const auto samples = static_cast<double>(count);
-  return Effect{main / samples / variance, total / samples / variance};
-}
-
-/// Variance of the means of y over groups of equal keys.
-double calc_between(const std::vector<double>& y,
-                    const std::vector<std::string>& keys) {
-  std::map<std::string, std::vector<double>> groups;
-  for (std::size_t i = 0; i < y.size(); ++i) groups[keys[i]].push_back(y[i]);
-  std::vector<double> means;
-  for (const auto& [key, values] : groups) means.push_back(calc_mean(values));
-  return calc_variance(means);
-}
-
-std::optional<Effect> find_gridded(const std::vector<double>& y,
-                                   const std::vector<StudyRow>& rows,
-                                   std::size_t k) {
-  const double variance = calc_variance(y);
-  if (!(variance > 0.0)) return std::nullopt;
-  std::vector<std::string> own;
-  std::vector<std::string> others;
-  for (const StudyRow& row : rows) {
-    own.push_back(row.factors[k]);
-    others.emplace_back();
-    for (std::size_t f = 0; f < row.factors.size(); ++f) {
-      if (f != k) others.back() += row.factors[f] + "\n";
-    }
-  }
-  return Effect{calc_between(y, own) / variance,
-                1.0 - calc_between(y, others) / variance};
 }
 
 using Words = std::string StudyRow::*;
@@ -118,6 +43,81 @@ std::string describe_rows(const std::vector<StudyRow>& rows, Words words,
 
 std::string to_number(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
+}
+
+std::string describe(const std::optional<Interval>& interval) {
+  if (!interval) return "";
+  return fmt::format(" ({:.2f} to {:.2f})", interval->low, interval->high);
+}
+
+std::string describe_effects(const Study& study, std::size_t runs,
+                             const std::vector<StudyRow>& rows,
+                             const Effects& effects) {
+  std::string text;
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    const std::string& response = study.responses[r].name;
+    const std::string why = find_missing_effects(study, runs, rows, r);
+    if (!why.empty()) {
+      text += fmt::format("{:<24} has no effects: {}\n", response, why);
+    }
+    for (std::size_t f = 0; f < effects.size(); ++f) {
+      const auto& effect = effects[f][r];
+      if (!effect) continue;
+      const std::string doubt = describe_doubt(study, *effect);
+      text += fmt::format(
+          "{:<24} on {:<24} main {:6.3f}{}  total {:6.3f}{}{}\n",
+          study.factors[f].name, response, effect->main,
+          describe(effect->main_interval), effect->total,
+          describe(effect->total_interval), doubt.empty() ? "" : ": " + doubt);
+    }
+  }
+  return text;
+}
+
+std::string describe_correlations(const Study& study,
+                                  const Correlations& correlations) {
+  std::string text;
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    for (std::size_t f = 0; f < correlations.size(); ++f) {
+      const auto& found = correlations[f][r];
+      if (!found) continue;
+      text += fmt::format(
+          "{:<24} with {:<22} correlation {:6.3f}{}  of ranks {:6.3f}{}{}\n",
+          study.factors[f].name, study.responses[r].name, found->linear,
+          describe(found->linear_interval), found->rank,
+          describe(found->rank_interval),
+          found->is_told() ? ""
+                           : fmt::format(": cannot tell from 0 with {} samples",
+                                         found->samples));
+    }
+  }
+  return text;
+}
+
+Json to_list(const Interval& interval) {
+  return Json::array({interval.low, interval.high});
+}
+
+/// An effect that the samples do not carry is null.
+Json to_json(const Study& study, const Effect& effect) {
+  const std::string doubt = describe_doubt(study, effect);
+  Json json{{"main", doubt.empty() ? Json(effect.main) : Json(nullptr)},
+            {"total", doubt.empty() ? Json(effect.total) : Json(nullptr)}};
+  if (effect.main_interval) {
+    json["main_interval"] = to_list(*effect.main_interval);
+    json["total_interval"] = to_list(*effect.total_interval);
+  }
+  if (!doubt.empty()) json["doubt"] = doubt;
+  return json;
+}
+
+Json to_json(const Correlation& correlation) {
+  return Json{{"linear", correlation.linear},
+              {"linear_interval", to_list(correlation.linear_interval)},
+              {"rank", correlation.rank},
+              {"rank_interval", to_list(correlation.rank_interval)},
+              {"differs_from_zero", correlation.is_told()},
+              {"samples", correlation.samples}};
 }
 
 }  // namespace
@@ -153,24 +153,14 @@ ResponseRange find_range(const std::vector<StudyRow>& rows,
   return range;
 }
 
-Effects find_effects(const Study& study, std::size_t runs,
-                     const std::vector<StudyRow>& rows) {
-  const bool is_sobol = study.design.kind == DesignKind::sobol;
-  if (!is_sobol && study.design.kind != DesignKind::grid) return {};
-  Effects effects(study.factors.size());
-  for (std::size_t f = 0; f < effects.size(); ++f) {
-    for (std::size_t r = 0; r < study.responses.size(); ++r) {
-      const std::vector<double> y = list_values(rows, runs, r);
-      effects[f].push_back(y.empty()  ? std::nullopt
-                           : is_sobol ? find_sampled(y, study.factors.size(), f)
-                                      : find_gridded(y, rows, f));
-    }
-  }
-  return effects;
+StudyFindings find_findings(const Study& study, std::size_t runs,
+                            const std::vector<StudyRow>& rows) {
+  return {find_effects(study, runs, rows), find_correlations(study, rows)};
 }
 
-std::string to_text(const Study& study, const std::vector<StudyRow>& rows,
-                    const Effects& effects) {
+std::string to_text(const Study& study, std::size_t runs,
+                    const std::vector<StudyRow>& rows,
+                    const StudyFindings& findings) {
   std::string text =
       fmt::format("{:<24} {:>6} {:>13} {:>13} {:>13}\n", "response", "runs",
                   "least", "mean", "largest");
@@ -191,22 +181,15 @@ std::string to_text(const Study& study, const std::vector<StudyRow>& rows,
         study.responses[r].name, found->mean, found->mean_error,
         found->quantile(0.05), found->quantile(0.95));
   }
-  for (std::size_t f = 0; f < effects.size(); ++f) {
-    for (std::size_t r = 0; r < study.responses.size(); ++r) {
-      const auto& effect = effects[f][r];
-      if (!effect) continue;
-      text += fmt::format("{:<24} on {:<24} main {:6.3f}  total {:6.3f}\n",
-                          study.factors[f].name, study.responses[r].name,
-                          effect->main, effect->total);
-    }
-  }
+  text += describe_effects(study, runs, rows, findings.effects);
+  text += describe_correlations(study, findings.correlations);
   text += describe_rows(rows, &StudyRow::error, "failed");
   text += describe_rows(rows, &StudyRow::warnings, "have warnings");
   return text;
 }
 
 Json to_json(const Study& study, std::size_t runs,
-             const std::vector<StudyRow>& rows, const Effects& effects) {
+             const std::vector<StudyRow>& rows, const StudyFindings& findings) {
   Json json{{"study", study.file.string()},
             {"design", to_string(study.design.kind)},
             {"runs", runs},
@@ -229,10 +212,14 @@ Json to_json(const Study& study, std::size_t runs,
         one["quantiles"][fmt::format("{:g}", p)] = found->quantile(p);
       }
     }
-    for (std::size_t f = 0; f < effects.size(); ++f) {
-      if (!effects[f][r]) continue;
-      one["effects"][study.factors[f].name] = {{"main", effects[f][r]->main},
-                                               {"total", effects[f][r]->total}};
+    for (std::size_t f = 0; f < study.factors.size(); ++f) {
+      const std::string& factor = study.factors[f].name;
+      if (f < findings.effects.size() && findings.effects[f][r]) {
+        one["effects"][factor] = to_json(study, *findings.effects[f][r]);
+      }
+      if (f < findings.correlations.size() && findings.correlations[f][r]) {
+        one["correlations"][factor] = to_json(*findings.correlations[f][r]);
+      }
     }
     json["responses"][study.responses[r].name] = one;
   }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "limber/app/console/json.hpp"
+#include "limber/app/study/correlation.hpp"
+#include "limber/app/study/effects.hpp"
 #include "limber/app/study/study_file.hpp"
 
 namespace limber::app {
@@ -24,28 +26,21 @@ struct ResponseRange {
 [[nodiscard]] ResponseRange find_range(const std::vector<StudyRow>& rows,
                                        std::size_t response);
 
-/// Main and total effect of each factor on each response: shares of its
-/// variance; by factor, then response. None where a run is missing, or where
-/// the response does not vary.
-struct Effect {
-  double main = 0.0;   ///< [-]
-  double total = 0.0;  ///< [-]
+/// What the finished runs of a study tell.
+struct StudyFindings {
+  Effects effects;
+  Correlations correlations;
 };
-using Effects = std::vector<std::vector<std::optional<Effect>>>;
-/// For a complete `sobol` or `grid` design; empty for others.
-///
-/// Source     `sobol`: Saltelli et al. (2010) [@saltelli2010], its estimators
-///            (b) and (f); `grid`: the variances of conditional means
-/// Limits     `sobol`: the error falls with the samples, and an effect near 0
-///            may come out below it
-[[nodiscard]] Effects find_effects(const Study& study, std::size_t runs,
-                                   const std::vector<StudyRow>& rows);
+/// @param runs of the whole design
+[[nodiscard]] StudyFindings find_findings(const Study& study, std::size_t runs,
+                                          const std::vector<StudyRow>& rows);
 
-[[nodiscard]] std::string to_text(const Study& study,
+/// @param runs of the whole design
+[[nodiscard]] std::string to_text(const Study& study, std::size_t runs,
                                   const std::vector<StudyRow>& rows,
-                                  const Effects& effects);
+                                  const StudyFindings& findings);
 [[nodiscard]] Json to_json(const Study& study, std::size_t runs,
                            const std::vector<StudyRow>& rows,
-                           const Effects& effects);
+                           const StudyFindings& findings);
 
 }  // namespace limber::app

@@ -280,32 +280,39 @@ std::string draw_distributions(
   return script.run();
 }
 
-std::string draw_effects(const std::filesystem::path& file,
-                         const std::string& title,
-                         const std::vector<EffectBars>& responses) {
+std::string draw_bars(const std::filesystem::path& file,
+                      const std::string& title, const BarLabels& labels,
+                      const std::vector<FactorBars>& responses) {
   if (responses.empty()) return "";
   GnuplotScript script =
       begin(file, title, arrange(responses.size()), kPanel + 40);
-  script.add("set style data histograms");
-  script.add("set style histogram clustered gap 1");
   script.add("set style fill solid 0.85 noborder");
+  script.add("set boxwidth 0.35");
   script.add("set key top right");
-  script.add("set yrange [*<0:1.05]");
-  script.add("set ylabel 'share of the variance [-]'");
+  script.add("set yrange " + labels.range);
+  script.add("set ylabel " + quote(labels.axis));
   script.add("set xtics rotate by -25 noenhanced");
   for (std::size_t r = 0; r < responses.size(); ++r) {
-    const EffectBars& bars = responses[r];
+    const FactorBars& bars = responses[r];
     script.add(fmt::format("$e{} << EOD", r));
     for (std::size_t f = 0; f < bars.factors.size(); ++f) {
-      script.add(fmt::format("\"{}\" {:.6g} {:.6g}", bars.factors[f],
-                             bars.main[f], bars.total[f]));
+      const Bar& a = bars.first[f];
+      const Bar& b = bars.second[f];
+      script.add(fmt::format(
+          "\"{}\" {} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}",
+          bars.factors[f], f, a.value, a.low, a.high, b.value, b.low, b.high));
     }
     script.add("EOD");
+    script.add(fmt::format("set xrange [-0.6:{}]",
+                           static_cast<double>(bars.factors.size()) - 0.4));
     script.add("set title " + quote(bars.response) + " noenhanced");
     script.add(fmt::format(
-        "plot $e{0} using 2:xtic(1) lc rgb '{1}' title 'main', $e{0} using 3 "
-        "lc rgb '{2}' title 'total'",
-        r, kBlue, kOrange));
+        "plot $e{0} using ($2-0.19):3:xtic(1) with boxes lc rgb '{1}' title "
+        "{3}, $e{0} using ($2+0.19):6 with boxes lc rgb '{2}' title {4}, "
+        "$e{0} using ($2-0.19):4:4:5 with yerrorbars pt 0 lc rgb 'black' "
+        "notitle, $e{0} using ($2+0.19):7:7:8 with yerrorbars pt 0 lc rgb "
+        "'black' notitle",
+        r, kBlue, kOrange, quote(labels.first), quote(labels.second)));
   }
   script.add("unset multiplot");
   return script.run();

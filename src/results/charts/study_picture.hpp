@@ -48,15 +48,29 @@ struct DistributionCurve {
     const std::filesystem::path& file, const std::string& title,
     const std::vector<DistributionCurve>& responses);
 
-/// Main and total effect of every factor on one response [-].
-struct EffectBars {
+/// A number with its interval [-].
+struct Bar {
+  double value = 0.0;  ///< NaN: not known, only its interval is drawn
+  double low = 0.0;
+  double high = 0.0;
+};
+/// Two numbers of every factor for one response, as main and total effect.
+struct FactorBars {
   std::string response;
   std::vector<std::string> factors;
-  std::vector<double> main;
-  std::vector<double> total;
+  std::vector<Bar> first;
+  std::vector<Bar> second;
 };
-[[nodiscard]] std::string draw_effects(
-    const std::filesystem::path& file, const std::string& title,
-    const std::vector<EffectBars>& responses);
+/// What the bars are.
+struct BarLabels {
+  std::string first;
+  std::string second;
+  std::string axis;
+  std::string range;  ///< of the axis, as gnuplot writes it: "[0:1]"
+};
+[[nodiscard]] std::string draw_bars(const std::filesystem::path& file,
+                                    const std::string& title,
+                                    const BarLabels& labels,
+                                    const std::vector<FactorBars>& responses);
 
 }  // namespace limber::results

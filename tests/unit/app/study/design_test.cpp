@@ -9,7 +9,6 @@
 
 #include "limber/app/study/sobol_sequence.hpp"
 #include "limber/app/study/study_reader.hpp"
-#include "limber/app/study/study_table.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::app::design_test {
@@ -147,56 +146,6 @@ TEST(Design, SampledNormalFactorsHaveTheirMeanAndDeviation) {
   // Stratified, so the error is far below 1/sqrt(2000).
   EXPECT_NEAR(mean, 3.0, 1e-3);
   EXPECT_NEAR(std::sqrt(square), 0.5, 2e-3);
-}
-
-/// Ishigami, Homma (1990): y = sin a + 7 sin^2 b + 0.1 c^4 sin a.
-double calc_ishigami(const std::vector<std::string>& x) {
-  const double a = to_double(x[0]);
-  const double b = to_double(x[1]);
-  const double c = to_double(x[2]);
-  return std::sin(a) + 7.0 * std::sin(b) * std::sin(b) +
-         0.1 * std::pow(c, 4) * std::sin(a);
-}
-
-TEST(Effects, OfASobolDesignAreThoseInClosedFormOfIshigamisFunction) {
-  const std::string range = "uniform = [-3.141592653589793, 3.141592653589793]";
-  const Study study =
-      read("kind = 'sobol'\nsamples = 4096\nseed = 1",
-           factor("a", range) + factor("b", range) + factor("c", range));
-  const Design design = make_design(study);
-  ASSERT_EQ(design.size(), 4096U * 5U);
-  std::vector<StudyRow> rows;
-  for (std::size_t i = 0; i < design.size(); ++i) {
-    rows.push_back({i, design[i], {calc_ishigami(design[i])}, "", ""});
-  }
-  const Effects effects = find_effects(study, design.size(), rows);
-  const double main[] = {0.31390519, 0.44241114, 0.0};
-  const double total[] = {0.55758886, 0.44241114, 0.24368366};
-  for (std::size_t f = 0; f < 3; ++f) {
-    EXPECT_NEAR(effects[f][0]->main, main[f], 0.01) << f;
-    EXPECT_NEAR(effects[f][0]->total, total[f], 0.01) << f;
-  }
-}
-
-TEST(Effects, OfAGridAreSharesOfTheVariance) {
-  const Study study =
-      read("kind = 'grid'",
-           factor("a", "values = [-1, 1]") + factor("b", "values = [-1, 1]"));
-  const Design design = make_design(study);
-  std::vector<StudyRow> rows;
-  for (std::size_t i = 0; i < design.size(); ++i) {
-    const double a = to_double(design[i][0]);
-    const double b = to_double(design[i][1]);
-    rows.push_back({i, design[i], {3.0 * a + 1.0 * b + 2.0 * a * b}, "", ""});
-  }
-  // Variances 9 of a, 1 of b, 4 of both together.
-  const Effects effects = find_effects(study, 4, rows);
-  EXPECT_NEAR(effects[0][0]->main, 9.0 / 14.0, 1e-14);
-  EXPECT_NEAR(effects[0][0]->total, 13.0 / 14.0, 1e-14);
-  EXPECT_NEAR(effects[1][0]->main, 1.0 / 14.0, 1e-14);
-  EXPECT_NEAR(effects[1][0]->total, 5.0 / 14.0, 1e-14);
-  rows.pop_back();
-  EXPECT_FALSE(find_effects(study, 4, rows)[0][0].has_value());
 }
 
 struct WrongStudy {
