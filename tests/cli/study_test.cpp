@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -303,6 +304,46 @@ TEST_F(AStudy, CorrelatesResponsesWithFactors) {
   EXPECT_TRUE(x["correlations"].contains("force"));
   EXPECT_EQ(x["correlations"]["stiffness"]["samples"], 12);
   EXPECT_THAT(run("study.toml --out a"), HasSubstr("of ranks"));
+}
+
+// A step of a damped oscillator through the command: m = 3 kg, k = 1200 N/m,
+// so omega = 20 rad/s; c = 2 zeta m omega with zeta = 0.1. Its first
+// acceleration is F / m; differences around h miss less than 2 zeta omega h +
+// (omega h)^2 of it.
+TEST_F(AStudy, MeasuresOvershootSettlingFrequencyAndAcceleration) {
+  place_.write("robot.urdf",
+               replace(kRobot, "stiffness='10' free_length='1'",
+                       "stiffness='1200' damping='12' free_length='1'"));
+  place_.write("s.toml",
+               replace(replace(kScenario, "duration = 0.5", "duration = 8.0"),
+                       "output_interval = 0.01", "output_interval = 0.002"));
+  std::string text =
+      "scenario = 's.toml'\nset = ['initial.joints.rail.position=0.0']\n"
+      "[design]\nkind = 'list'\n[[factor]]\nname = 'force'\n"
+      "path = 'load.push.force.0'\nvalues = [6, -12]\n";
+  for (const char* measure :
+       {"overshoot", "settling_time", "frequency", "acceleration"}) {
+    text += fmt::format(
+        "[[response]]\nname = '{0}'\nprobe = 'sled.ux'\nmeasure = '{0}'\n",
+        measure);
+  }
+  place_.write("study.toml", text);
+  const json found = json::parse(run("study.toml --out a --json"))["responses"];
+  const double zeta = 0.1;
+  const double root = std::sqrt(1.0 - zeta * zeta);
+  const double beyond = std::exp(-M_PI * zeta / root);
+  for (const char* end : {"least", "largest"}) {
+    EXPECT_NEAR(found["overshoot"][end].get<double>(), beyond, 2e-3);
+    EXPECT_NEAR(found["frequency"][end].get<double>(),
+                20.0 * root / (2.0 * M_PI), 0.05);
+    EXPECT_LE(found["settling_time"][end].get<double>(),
+              -std::log(0.02 * root) / (zeta * 20.0));
+    EXPECT_GE(found["settling_time"][end].get<double>(),
+              -std::log(0.02 * root) / (zeta * 20.0) - M_PI / (20.0 * root));
+  }
+  const double late = 2.0 * zeta * 20.0 * 0.002 + std::pow(20.0 * 0.002, 2);
+  EXPECT_NEAR(found["acceleration"]["least"].get<double>(), 2.0, 2.0 * late);
+  EXPECT_NEAR(found["acceleration"]["largest"].get<double>(), 4.0, 4.0 * late);
 }
 
 TEST_F(AStudy, OpensARunAgainWithItsPage) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "limber/app/reports/stress_report.hpp"
+#include "limber/app/study/curve_measures.hpp"
 #include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
@@ -115,6 +116,19 @@ double calc_rms(const results::History& history, std::size_t column) {
   return std::sqrt(sum / (times.back() - times.front()));
 }
 
+std::vector<double> list_samples(const results::History& history,
+                                 std::size_t column) {
+  std::vector<double> values;
+  for (const auto& row : history.probe_rows) values.push_back(row[column]);
+  return values;
+}
+
+/// Derivatives of a column to an acceleration; 0: it has none.
+int find_order(const results::ProbeColumn& column) {
+  if (column.unit == "m" || column.unit == "rad") return 2;
+  return column.unit == "m/s" || column.unit == "rad/s" ? 1 : 0;
+}
+
 /// Finds the responses of one run.
 class Evaluation {
  public:
@@ -134,8 +148,10 @@ class Evaluation {
         return run_.record.peaks.at(i).time;
       case Measure::final:
         return run_.history.probe_rows.back()[i];
-      default:
+      case Measure::rms:
         return calc_rms(run_.history, i);
+      default:
+        return measure_curve(i, probe.measure);
     }
   }
 
@@ -172,6 +188,22 @@ class Evaluation {
   Value operator()(const ExpressionResponse&) const { return std::nullopt; }
 
  private:
+  [[nodiscard]] Value measure_curve(std::size_t column, Measure measure) const {
+    const std::vector<double>& times = run_.history.times;
+    const std::vector<double> values = list_samples(run_.history, column);
+    switch (measure) {
+      case Measure::overshoot:
+        return find_overshoot(times, values);
+      case Measure::settling_time:
+        return find_settling_time(times, values);
+      case Measure::frequency:
+        return find_dominant_frequency(times, values);
+      default:
+        return find_largest_derivative(
+            times, values, find_order(run_.history.columns[column]));
+    }
+  }
+
   const Run& run_;
   std::optional<Json> json_;
 };
@@ -212,6 +244,15 @@ class Check {
     Parts known;
     for (const auto& column : start_.history.columns) {
       known.push_back(column.name);
+      const bool has_none = probe.measure == Measure::acceleration &&
+                            column.name == probe.column &&
+                            find_order(column) == 0;
+      if (has_none) {
+        return fmt::format(
+            "'{}' has the unit '{}': an acceleration is that of a place, an "
+            "angle or a velocity",
+            column.name, column.unit);
+      }
     }
     return find_unknown("column of a probe", probe.column, known);
   }

@@ -48,7 +48,17 @@ struct DesignSpec {
   std::uint64_t seed = 0;
 };
 
-enum class Measure { peak, time, final, rms };
+enum class Measure {
+  peak,
+  time,  ///< of the peak
+  final,
+  rms,
+  // Of curve_measures.hpp:
+  overshoot,
+  settling_time,
+  frequency,
+  acceleration,  ///< of columns of places and velocities
+};
 /// A column of a probe, as "tip.x".
 struct ProbeResponse {
   std::string column;

@@ -139,7 +139,11 @@ Measure read_measure(TomlTable& table) {
                               {{"peak", Measure::peak},
                                {"time", Measure::time},
                                {"final", Measure::final},
-                               {"rms", Measure::rms}},
+                               {"rms", Measure::rms},
+                               {"overshoot", Measure::overshoot},
+                               {"settling_time", Measure::settling_time},
+                               {"frequency", Measure::frequency},
+                               {"acceleration", Measure::acceleration}},
                               Measure::peak);
 }
 
