@@ -2,10 +2,8 @@
 #include "limber/contact/narrow_phase/pair_rules.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "limber/contact/narrow_phase/nearest_segments.hpp"
 #include "limber/contact/shapes/nearest_point.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
@@ -43,19 +41,6 @@ std::optional<NearestOnSurface> find_nearest_of(const PlacedShape& B,
       B.shape.kind);
 }
 
-Segment place_segment(const PlacedShape& capsule) {
-  return {capsule.X_WS.p, capsule.X_WS.R.col(2),
-          std::get<Capsule>(capsule.shape.kind).half_length};
-}
-
-// For axes that cross.
-Vector3 find_normal_of_crossing(const PlacedShape& A, const PlacedShape& B) {
-  constexpr double kParallel = 1e-12;
-  const Vector3 normal_W = A.X_WS.R.col(2).cross(B.X_WS.R.col(2));
-  const double sine = normal_W.norm();
-  return sine > kParallel ? Vector3(normal_W / sine) : A.X_WS.R.col(0);
-}
-
 }  // namespace
 
 Meeting meet_sphere(const PlacedShape& A, const PlacedShape& B, double reach) {
@@ -81,35 +66,6 @@ double find_sphere_clearance(const PlacedShape& A, const PlacedShape& B) {
                                    find_modal_coordinates(**skin, B.body));
   }
   return -meet_sphere(A, B, 0.0).depth;
-}
-
-Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B) {
-  const Segment a = place_segment(A);
-  const Segment b = place_segment(B);
-  const double radius_A = std::get<Capsule>(A.shape.kind).radius;
-  const double radius_B = std::get<Capsule>(B.shape.kind).radius;
-  const NearestOfSegments at = find_nearest(a, b);
-  const Vector3 centre = a.centre + at.s * a.axis;
-  const Vector3 arm = b.centre + at.t * b.axis - centre;
-  const double distance = arm.norm();
-  const Vector3 normal_W =
-      distance > 0.0 ? Vector3(arm / distance) : find_normal_of_crossing(A, B);
-  const auto find_curvature = [](const Segment& segment, double s,
-                                 double radius) {
-    return (std::abs(s) < segment.half_length ? 0.5 : 1.0) / radius;
-  };
-  const Vector3 on_A =
-      Vector3(0.0, 0.0, at.s) + radius_A * (A.X_WS.R.transpose() * normal_W);
-  const Vector3 on_B =
-      Vector3(0.0, 0.0, at.t) - radius_B * (B.X_WS.R.transpose() * normal_W);
-  const double depth = radius_A + radius_B - distance;
-  return {.depth = depth,
-          .normal_W = normal_W,
-          .p_W = centre + (radius_A - 0.5 * depth) * normal_W,
-          .on_A = A.make_place(on_A),
-          .on_B = B.make_place(on_B),
-          .curvature = find_curvature(a, at.s, radius_A) +
-                       find_curvature(b, at.t, radius_B)};
 }
 
 }  // namespace limber::contact

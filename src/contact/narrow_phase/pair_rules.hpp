@@ -6,7 +6,7 @@
 #include "limber/contact/narrow_phase/meeting.hpp"
 #include "limber/contact/narrow_phase/placed_shape.hpp"
 
-/// The rules of ShapePair, with A the sphere, half space or capsule.
+/// The rules of ShapePair, with A the sphere or half space.
 namespace limber::contact {
 
 /// Of a sphere with any shape.
@@ -17,11 +17,6 @@ namespace limber::contact {
 /// A lower bound of the distance; < 0 if they overlap [m].
 [[nodiscard]] double find_sphere_clearance(const PlacedShape& A,
                                            const PlacedShape& B);
-
-/// Of two capsules.
-///
-/// Limits     one point: see find_nearest of segments
-[[nodiscard]] Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B);
 
 /// Features of two skins: the deepest places of their overlap that are
 /// distinct, the deepest first, at most this number (SkinPairSearch).

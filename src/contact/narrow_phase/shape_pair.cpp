@@ -62,8 +62,6 @@ ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
     is_loose_ = has_loose_features_on_plane(skin);
     pad_count_ = skin.pad_count();
     has_pads_on_A_ = is_swapped_;
-  } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
-    rule_ = Rule::kCapsules;
   } else if ((is_skin(A_) && has_skin(B_)) || (is_skin(B_) && has_skin(A_))) {
     rule_ = Rule::kSkins;
     skin_A_ = make_skin(A_);
@@ -96,9 +94,6 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
       break;
     case Rule::kHalfSpace:
       meet_half_space(first, second, reach, out);
-      break;
-    case Rule::kCapsules:
-      out[0] = meet_capsules(first, second);
       break;
     case Rule::kFlat:
       meet_flat(first, second, bodies, reach, out);
@@ -167,9 +162,6 @@ double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
       break;
     case Rule::kHalfSpace:
       distance = find_half_space_clearance(first, second);
-      break;
-    case Rule::kCapsules:
-      distance = -meet_capsules(first, second).depth;
       break;
     case Rule::kFlat:
       distance = find_flat_clearance(first, second, bodies);

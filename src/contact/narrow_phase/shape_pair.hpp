@@ -19,7 +19,6 @@ namespace limber::contact {
 ///
 ///     sphere with sphere, half
 ///       space, capsule, skin       1
-///     capsule with capsule         1
 ///     skin with skin, box,
 ///       cylinder, capsule          8, the deepest that are apart: these have
 ///                                  no order that lasts (ordered_count())
@@ -73,7 +72,7 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
-  enum class Rule { kSphere, kHalfSpace, kCapsules, kFlat, kSkins };
+  enum class Rule { kSphere, kHalfSpace, kFlat, kSkins };
 
   void meet_flat(const PlacedShape& padded, const PlacedShape& face,
                  const joints::PairBodies& bodies, double reach,

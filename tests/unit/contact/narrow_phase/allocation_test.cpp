@@ -23,14 +23,12 @@ TEST(Allocation, FindingWhereShapesMeetMakesNone) {
   auto surface = test::make_ball_surface(1.0, 2, true);
   test::set_modes(surface, test::make_fields());
   const Shape skin{std::make_shared<const Skin>(surface), {}};
-  const Shape capsule{Capsule{0.4, 0.5}, {}};
   const VectorX eta = VectorX::Constant(4, 0.05);
   const joints::PairBody A{.p_WB = {0, 0, 0.9}, .modes = 4, .eta = eta.data()};
   const joints::PairBody B;
   Matrix3X Phi(3, 4);
   for (const ShapePair& pair :
        {ShapePair(skin, {Sphere{0.3}, {}}), ShapePair(skin, {HalfSpace{}, {}}),
-        ShapePair(capsule, capsule),
         ShapePair(skin, {Box{{0.3, 0.3, 0.3}}, {}})}) {
     std::vector<Meeting> out(pair.most_points());
     double deepest = -1e9;

@@ -57,7 +57,6 @@ std::vector<ShapePair> list_pairs() {
   }
   pairs.emplace_back(plane, make_skin());
   pairs.emplace_back(make_skin(), plane);
-  pairs.emplace_back(capsule, put(Capsule{0.2, 0.7}));
   return pairs;
 }
 

@@ -108,32 +108,10 @@ TEST(ShapePair, ASkinMeetsAHalfSpaceWithItsDeepestNodes) {
   }
 }
 
-TEST(ShapePair, CapsulesThatCrossMeetWhereTheirAxesAreNearest) {
-  const Pose turned{exp_rotation(Vector3(0.5 * M_PI, 0, 0)), Vector3::Zero()};
-  const ShapePair pair({Capsule{0.2, 1.0}, {}}, {Capsule{0.3, 1.0}, turned});
-  const auto at = meet(pair, place({0, 0, 0}), place({0.4, 0.5, 0.25}));
-  EXPECT_NEAR(at[0].depth, 0.1, 1e-15);
-  EXPECT_LT((at[0].normal_W - Vector3(1, 0, 0)).norm(), 1e-15);
-  EXPECT_LT((at[0].on_A.x_B - Vector3(0.2, 0, 0.25)).norm(), 1e-15);
-  EXPECT_LT((at[0].on_B.x_B - Vector3(-0.3, -0.5, 0)).norm(), 1e-15);
-  EXPECT_LT((at[0].p_W - Vector3(0.15, 0, 0.25)).norm(), 1e-15);
-  EXPECT_DOUBLE_EQ(at[0].curvature, 0.5 / 0.2 + 0.5 / 0.3);
-}
-
-TEST(ShapePair, CapsulesWhoseAxesTouchHaveANormalToBoth) {
-  const ShapePair pair({Capsule{0.2, 1.0}, {}}, {Capsule{0.3, 1.0}, {}});
-  for (const double angle : {0.0, 1e-6, 1.0}) {
-    const auto at = meet(pair, place({0, 0, 0}),
-                         place({0, 0, 0}, exp_rotation(Vector3(0, angle, 0))));
-    EXPECT_NEAR(at[0].depth, 0.5, 1e-15);
-    EXPECT_NEAR(at[0].normal_W.norm(), 1.0, 1e-15);
-    EXPECT_NEAR(at[0].normal_W.z(), 0.0, 1e-15);
-  }
-}
-
 TEST(ShapePair, ShapesWithAPotentialAndBadSizesAreRefused) {
   EXPECT_THROW(ShapePair({Box{{1, 1, 1}}, {}}, {HalfSpace{}, {}}), InputError);
   EXPECT_THROW(ShapePair({Box{{1, 1, 1}}, {}}, {Sphere{0.5}, {}}), InputError);
+  EXPECT_THROW(ShapePair({Capsule{1, 1}, {}}, {Capsule{1, 1}, {}}), InputError);
   EXPECT_THROW(ShapePair({HalfSpace{}, {}}, {HalfSpace{}, {}}), InputError);
   EXPECT_THROW(ShapePair({Sphere{-1.0}, {}}, {HalfSpace{}, {}}), InputError);
 }
