@@ -200,6 +200,19 @@ class Scenario:
             warnings.warn(text, LimberWarning, stacklevel=2)
         return found
 
+    def advise(self, cache=None):
+        """Recommended level of every flexible link, as ``limber advise --json``.
+
+        Returns a dictionary: "bodies" has for each link "recommended", "reason",
+        "peaks", "left_out" and more; "fidelity_table" is the text of a
+        scenario's table that follows the advice. "doubt" of a body states that
+        its figures have no stated error.
+        """
+        found = _core.advise(self._scene, _path(cache))
+        for text in found["warnings"]:
+            warnings.warn(text, LimberWarning, stacklevel=2)
+        return found
+
     def linearize(self, at="start", inputs=None, outputs=None, states=None,
                   cache=None):
         """Linear model (A, B, C, D) of its system, as ``limber linearize``.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the commands static, frequencies and compare find, of a loaded scene.
+// What the commands static, frequencies, advise and compare find, of a
+// loaded scene.
 #include "arrays.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
 #include "limber/app/reports/frequency_report.hpp"
+#include "limber/app/reports/levels.hpp"
 #include "limber/app/run/static_run.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -44,6 +46,13 @@ py::object find_frequencies(const scene::Scene& scene, int count,
     return app::find_frequencies(scene, cache, watch);
   });
   return to_python(to_json(report, count));
+}
+
+py::object advise(const scene::Scene& scene, const fs::path& cache) {
+  const app::SceneAdvice advice = run_alone([&](const Progress& watch) {
+    return app::advise_scene(scene, cache, watch);
+  });
+  return to_python(to_json(advice));
 }
 
 app::Axes read_axes(const py::dict& wish) {
@@ -105,6 +114,7 @@ void bind_analysis(py::module_& m) {
         py::arg("cache"));
   m.def("find_frequencies", &find_frequencies, py::arg("scene"),
         py::arg("count"), py::arg("cache"));
+  m.def("advise", &advise, py::arg("scene"), py::arg("cache"));
   m.def("compare", &compare, py::arg("scene"), py::arg("wish"),
         py::arg("cache"));
 }

@@ -127,6 +127,48 @@ TEST(Advise, TakesItsLimitsFromTheScenarioUnlessTheCommandHasThem) {
       json({{"displacement", 1e-3}, {"linear_limit", 0.5}, {"force", 8.0}}));
 }
 
+// Rigid links have no stress: its probes are left out of the first run.
+TEST(Advise, TakesAScenarioWithProbesOfStress) {
+  const Workspace place;
+  const json advice = parse(place.limber("advise '" LIMBER_SOURCE_DIR
+                                         "/examples/beam_stress.toml' --json"));
+  ASSERT_EQ(advice["bodies"].size(), 1U);
+  EXPECT_FALSE(advice["bodies"][0].contains("doubt"));
+}
+
+// What the advised level then deforms by lies within the twofold of a sudden
+// load that the advice allows for.
+TEST(Advise, AgreesWithARunAtTheLevelThatItAdvises) {
+  for (const char* scene : {"beam_stress", "four_bar"}) {
+    const Workspace place;
+    const std::string file = fmt::format(
+        "'{}/examples/{}.toml' --set "
+        "time.duration=0.05",
+        LIMBER_SOURCE_DIR, scene);
+    const json before = parse(place.limber("advise " + file + " --json"));
+    const json after = parse(place.limber("run " + file +
+                                          " --fidelity coupled --json --set "
+                                          "output.pictures=false"));
+    for (std::size_t b = 0; b < before["bodies"].size(); ++b) {
+      const auto peak = [&](const json& body) {
+        return body["peaks"]["deformation"]["value"].get<double>();
+      };
+      const double advised = peak(before["bodies"][b]);
+      const double found = peak(after["levels"][b]);
+      EXPECT_LE(found, 1.01 * advised) << scene;
+      EXPECT_GE(found, 0.2 * advised) << scene;
+    }
+  }
+}
+
+TEST(Advise, StatesThatItCannotTellAfterImpacts) {
+  const Workspace place;
+  const json body =
+      parse(place.limber("advise '" LIMBER_SOURCE_DIR
+                         "/examples/ball_on_link.toml' --json"))["bodies"][0];
+  EXPECT_THAT(body["doubt"].get<std::string>(), HasSubstr("cannot tell"));
+}
+
 TEST(Advise, RefusesBadInput) {
   const Workspace place;
   const auto refuses = [&](const std::string& arguments,

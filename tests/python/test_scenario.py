@@ -209,6 +209,15 @@ def test_progress_is_told_and_its_exception_ends_the_run(sled):
     assert 0.0 < told[0][1] < 1.0
 
 
+def test_advise_is_that_of_the_command(sled):
+    told = json.loads(call("advise", FLEXIBLE, "--json"))
+    found = limber.load(FLEXIBLE).advise()
+    assert found["fidelity_table"] == told["fidelity_table"]
+    assert found["bodies"] == told["bodies"]
+    with pytest.raises(limber.InputError, match="no link is flexible"):
+        limber.load(sled).advise()
+
+
 def test_static_frequencies_and_compare_are_those_of_the_commands(sled):
     scenario = limber.load(sled)
     found = scenario.frequencies(count=1)

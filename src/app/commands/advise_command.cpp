@@ -44,12 +44,7 @@ scene::Scene load_advise_scene(const AdviseOptions& options) {
   replace(advice.linear_limit, options.settings.linear_limit);
   replace(advice.force, options.settings.force);
   dynamics::check(advice);
-  for (const scene::Link& link : scene.robot.links) {
-    if (link.flexible) return scene;
-  }
-  throw InputError(
-      fmt::format("{}: no link is flexible; there is no level to choose",
-                  scene.robot.file.string()));
+  return scene;
 }
 
 void write_picture(const std::filesystem::path& file, const std::string& title,
@@ -64,36 +59,31 @@ void write_picture(const std::filesystem::path& file, const std::string& title,
   if (!why_none.empty()) print_warnings({why_none});
 }
 
-Json summarize(const scene::Scene& scene, const std::vector<BodyLevel>& levels,
-               const std::filesystem::path& folder) {
-  Json json = Json::object();
-  json["scenario"] = scene.scenario.file.string();
-  json["bodies"] = Json::array();
-  for (const BodyLevel& level : levels)
-    json["bodies"].push_back(to_json(level));
-  json["fidelity_table"] = to_fidelity_table(levels);
-  json["folder"] = folder.string();
-  return json;
-}
-
 void advise(const AdviseOptions& options) {
   const scene::Scene scene = load_advise_scene(options);
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name + "-advise"));
-  const std::vector<BodyLevel> levels = advise_scene(scene, options.cache);
-  const Json json = summarize(scene, levels, folder.path());
+  const SceneAdvice advice =
+      advise_scene(scene, options.cache, make_progress_bar());
+  clear_progress_bar();
+  print_more_notes(scene, advice.notes);
+  print_warnings(advice.warnings);
+  Json json = to_json(advice);
+  json["folder"] = folder.path().string();
   folder.write([&](const std::filesystem::path& place) {
     write_text(place / "advice.json", to_text(json));
     if (scene.scenario.output.pictures) {
-      write_picture(place / "advice.png", scene.scenario.name, levels);
+      write_picture(place / "advice.png", scene.scenario.name, advice.levels);
     }
   });
   if (options.json) {
     fmt::print("{}\n", to_text(json));
     return;
   }
-  for (const BodyLevel& level : levels) fmt::print("{}\n", to_text(level));
-  fmt::print("{}\nresults in {}\n", to_fidelity_table(levels),
+  for (const BodyLevel& level : advice.levels) {
+    fmt::print("{}\n", to_text(level));
+  }
+  fmt::print("{}\nresults in {}\n", to_fidelity_table(advice.levels),
              folder.path().string());
 }
 

@@ -10,8 +10,8 @@
 #include "limber/app/console/numbered_stages.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/unused_cache.hpp"
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -87,6 +87,41 @@ SystemModel find_flexible_model(const scene::Scene& scene,
   return lower_levels(built.model);
 }
 
+void require_flexible_link(const scene::Scene& scene) {
+  for (const scene::Link& link : scene.robot.links) {
+    if (link.flexible) return;
+  }
+  throw InputError(
+      fmt::format("{}: no link is flexible; there is no level to choose",
+                  scene.robot.file.string()));
+}
+
+bool is_of_stress(const scene::ProbeSpec& probe) {
+  return std::holds_alternative<scene::StressProbeSpec>(probe.of);
+}
+
+/// The scene without what a rigid link does not have.
+/// @throws InputError if a controller measures it
+scene::Scene leave_out_stress(scene::Scene scene) {
+  scene::Scenario& scenario = scene.scenario;
+  for (const scene::ProbeSpec& probe : scenario.probes) {
+    if (!is_of_stress(probe)) continue;
+    for (const scene::ControllerSpec& controller : scenario.controllers) {
+      const auto is_of = [&](const std::string& column) {
+        return column.starts_with(probe.name + ".");
+      };
+      if (!is_of(controller.measures) && !is_of(controller.rate)) continue;
+      throw InputError(fmt::format(
+          "{}: controller '{}' measures the stress '{}', which the rigid links "
+          "of this first run do not have: no level can be advised",
+          scenario.file.string(), controller.name, probe.name));
+    }
+  }
+  std::erase_if(scenario.probes, is_of_stress);
+  scenario.output.stress = false;
+  return scene;
+}
+
 /// The levels that the scenario requests, one per body.
 std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
                                            const dynamics::SystemModel& model) {
@@ -97,6 +132,17 @@ std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
                                                              : found->second);
   }
   return asked;
+}
+
+/// Forces of an impact are those of the masses that meet, which for flexible
+/// links are smaller, and what happens after it may differ.
+std::string find_doubt(const std::vector<dynamics::ContactRecord>& contacts) {
+  if (contacts.empty()) return "";
+  return fmt::format(
+      "cannot tell how far a run is from these figures: {} contacts in the run "
+      "of rigid links, from {} at {:.4g} s on, whose forces flexible links "
+      "change; judge by the levels that 'limber run' reports",
+      contacts.size(), contacts.front().pair, contacts.front().time);
 }
 
 }  // namespace
@@ -176,21 +222,20 @@ std::vector<BodyLevel> RunSurvey::judge() const {
   return judge_levels(model_, *survey_, used, scene_.scenario.advice);
 }
 
-std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
-                                    const std::filesystem::path& cache) {
-  const Progress bar = make_progress_bar();
+SceneAdvice advise_scene(const scene::Scene& scene,
+                         const std::filesystem::path& cache,
+                         const Progress& progress) {
+  require_flexible_link(scene);
   scene::Scene flexible_scene = scene;
   flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
   flexible_scene.scenario.fidelity_of_link.clear();
   flexible_scene.scenario.equilibrium.reset();
   scene::BuiltScene flexible = scene::build_system(
-      flexible_scene, make_reducer(number_stage(bar, 1, 2)), cache);
+      flexible_scene, make_reducer(number_stage(progress, 1, 2)), cache);
   warn_of_unused_cache(cache, flexible);
   const scene::BuiltScene rigid =
-      build_at_level(scene, dynamics::Fidelity::rigid, flexible.known, cache);
-  clear_progress_bar();
-  print_more_notes(scene, flexible.notes);
-  print_warnings(flexible.warnings);
+      build_at_level(leave_out_stress(scene), dynamics::Fidelity::rigid,
+                     flexible.known, cache);
   std::optional<dynamics::LevelSurvey> survey(flexible.model);
   dynamics::Followed followed;
   followed.spectator = {[&] { survey.emplace(flexible.model); },
@@ -203,21 +248,26 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
   dynamics::SystemState state = rigid.initial;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
-  dynamics::simulate(rigid.model, state, settings, {}, number_stage(bar, 2, 2),
-                     statistics, {}, followed, record);
-  clear_progress_bar();
-  print_warnings(statistics.warnings);
-  std::vector<BodyLevel> levels = judge_levels(
-      flexible.model, *survey, find_asked(scene.scenario, flexible.model),
-      scene.scenario.advice);
-  find_bounds(levels);
+  dynamics::simulate(rigid.model, state, settings, {},
+                     number_stage(progress, 2, 2), statistics, {}, followed,
+                     record);
+  SceneAdvice advice{scene.scenario.file.string(),
+                     judge_levels(flexible.model, *survey,
+                                  find_asked(scene.scenario, flexible.model),
+                                  scene.scenario.advice),
+                     flexible.warnings, flexible.notes};
+  advice.warnings.insert(advice.warnings.end(), statistics.warnings.begin(),
+                         statistics.warnings.end());
+  find_bounds(advice.levels);
+  const std::string doubt = find_doubt(record.contacts);
+  for (BodyLevel& level : advice.levels) level.doubt = doubt;
   for (const dynamics::ImpactSpectrum& spectrum :
        dynamics::find_impact_spectra(flexible.model, record.contacts)) {
-    for (BodyLevel& level : levels) {
+    for (BodyLevel& level : advice.levels) {
       if (level.name == spectrum.body) level.impacts.push_back(spectrum);
     }
   }
-  return levels;
+  return advice;
 }
 
 void find_bounds(std::vector<BodyLevel>& levels) {

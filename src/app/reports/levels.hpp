@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/app/console/json.hpp"
+#include "limber/common/progress.hpp"
 #include "limber/dynamics/analysis/level_advice.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
@@ -30,6 +31,9 @@ struct BodyLevel {
   std::shared_ptr<const flexbody::InertialDisplacementBound> bound;
   /// For each pair in which it touches another body; set only by advise_scene.
   std::vector<dynamics::ImpactSpectrum> impacts;
+  /// Why the figures have no stated error; empty if they have. Set only by
+  /// advise_scene.
+  std::string doubt;
 
   /// Whether the level used neglects no more than the limits allow.
   [[nodiscard]] bool is_justified() const { return used >= advice.level; }
@@ -76,11 +80,20 @@ class RunSurvey {
     const scene::KnownBodies& known, const std::filesystem::path& cache,
     const std::map<std::string, dynamics::Fidelity>& others = {});
 
-/// Runs the scene with every link rigid and judges the levels that it requests,
-/// for `limber advise`.
+/// What `limber advise` finds.
+struct SceneAdvice {
+  std::string scenario;  ///< its file
+  std::vector<BodyLevel> levels;
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< as scene::BuiltScene
+};
+/// Runs the scene with every link rigid and judges the levels that it requests.
 /// @param cache empty for the default one
-[[nodiscard]] std::vector<BodyLevel> advise_scene(
-    const scene::Scene& scene, const std::filesystem::path& cache);
+/// @throws InputError also if no link is flexible, or if a controller measures
+/// stress
+[[nodiscard]] SceneAdvice advise_scene(const scene::Scene& scene,
+                                       const std::filesystem::path& cache,
+                                       const Progress& progress);
 
 /// Gives free bodies their `bound`.
 void find_bounds(std::vector<BodyLevel>& levels);
@@ -90,6 +103,7 @@ void find_bounds(std::vector<BodyLevel>& levels);
     const std::vector<BodyLevel>& levels);
 
 [[nodiscard]] Json to_json(const BodyLevel& level);
+[[nodiscard]] Json to_json(const SceneAdvice& advice);
 /// A readable paragraph.
 [[nodiscard]] std::string to_text(const BodyLevel& level);
 /// The [fidelity] table of a scenario that follows the advice.

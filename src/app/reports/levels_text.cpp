@@ -154,6 +154,7 @@ Json to_json(const BodyLevel& level) {
                       {"coupled", advice.errors.coupled},
                       {"nonlinear", advice.errors.nonlinear}};
   json["mean_strain"] = describe_peak(peaks.strain);
+  if (!level.doubt.empty()) json["doubt"] = level.doubt;
   if (!level.impacts.empty()) json["impacts"] = Json::array();
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     json["impacts"].push_back(
@@ -166,6 +167,18 @@ Json to_json(const BodyLevel& level) {
              {"modes_needed",
               impact.needed ? Json(*impact.needed) : Json(nullptr)}});
   }
+  return json;
+}
+
+Json to_json(const SceneAdvice& advice) {
+  Json json = Json::object();
+  json["scenario"] = advice.scenario;
+  json["bodies"] = Json::array();
+  for (const BodyLevel& level : advice.levels) {
+    json["bodies"].push_back(to_json(level));
+  }
+  json["fidelity_table"] = to_fidelity_table(advice.levels);
+  json["warnings"] = advice.warnings;
   return json;
 }
 
@@ -199,6 +212,9 @@ std::string to_text(const BodyLevel& level) {
                       advice.reason);
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     text += fmt::format("  impact       {}\n", describe(impact));
+  }
+  if (!level.doubt.empty()) {
+    text += fmt::format("  doubt        {}\n", level.doubt);
   }
   return text;
 }

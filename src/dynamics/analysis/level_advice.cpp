@@ -212,6 +212,17 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
   return text;
 }
 
+/// Of its own nodes first: what it carries may move by much more.
+std::string describe_deformation(const BodyPeaks& peaks,
+                                 const LevelErrors& errors) {
+  constexpr double kFarther = 1.2;
+  const std::string own =
+      fmt::format("it deforms by {}", metres(peaks.deformation.value));
+  if (errors.rigid <= kFarther * peaks.deformation.value) return own;
+  return fmt::format("{}, which moves what it carries by up to {}", own,
+                     metres(errors.rigid));
+}
+
 std::string explain(const BodyModel& body, const BodyPeaks& peaks,
                     const LevelLimits& limits, const LevelAdvice& advice) {
   const std::string limit = metres(limits.displacement);
@@ -226,9 +237,9 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
         return fmt::format("it bends by {}, more than {}; it does not turn",
                            metres(e.rigid), limit);
       }
-      return fmt::format(
-          "it moves by {}, and rotation changes that by {}, within {}",
-          metres(e.rigid), metres(e.uncoupled), limit);
+      return fmt::format("{}; rotation changes that by {}, within {}",
+                         describe_deformation(peaks, e), metres(e.uncoupled),
+                         limit);
     case Fidelity::one_way:
       if (e.uncoupled <= limits.displacement) {
         return fmt::format(
@@ -248,10 +259,11 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
       break;
   }
   return fmt::format(
-      "it moves by {} while it turns by {:.2g} rad at up to {:.2g} rad/s: "
-      "without coupling the error may reach {}, more than {}",
-      metres(e.rigid), peaks.angle, peaks.Omega.value, metres(e.one_way),
-      limit);
+      "{}, while it turns by {:.2g} rad at up to {:.2g} rad/s: without "
+      "coupling "
+      "the error may reach {}, more than {}",
+      describe_deformation(peaks, e), peaks.angle, peaks.Omega.value,
+      metres(e.one_way), limit);
 }
 
 }  // namespace

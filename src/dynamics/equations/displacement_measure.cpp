@@ -39,14 +39,53 @@ class CouplerGraph {
     }
   }
 
-  /// Longest path from `body` over the coupler that ends at `other`.
+  /// Longest path from `body` over the coupler that ends at `other`; zero if
+  /// what is beyond holds the body.
   [[nodiscard]] double find_reach(BodyIndex body, AttachmentIndex other) const {
+    if (body == kWorld) return 0.0;
     std::vector<bool> visited(model_.bodies.size(), false);
-    if (body != kWorld) visited[index(body)] = true;
+    visited[index(body)] = true;
+    Group beyond;
+    include(other, visited, beyond);
+    // What remains on the body's own side.
+    Group own{model_.bodies[index(body)].mass,
+              model_.bodies[index(body)].clamped};
+    for (const AttachmentIndex far : ends_[index(body)]) {
+      include(far, visited, own);
+    }
+    if (beyond.is_grounded && !own.is_grounded) return 0.0;
+    if (beyond.is_grounded == own.is_grounded && beyond.mass > own.mass) {
+      return 0.0;
+    }
+    visited.assign(visited.size(), false);
+    visited[index(body)] = true;
     return find_reach(other, visited);
   }
 
  private:
+  /// Bodies that are joined to one another.
+  struct Group {
+    double mass = 0.0;         ///< [kg]
+    bool is_grounded = false;  ///< held by the world
+  };
+
+  /// Adds the body of `other`, and all behind it that were not visited.
+  void include(AttachmentIndex other, std::vector<bool>& visited,
+               Group& group) const {
+    const BodyIndex body = model_.attachments[index(other)].body;
+    if (body == kWorld) {
+      group.is_grounded = true;
+      return;
+    }
+    if (visited[index(body)]) return;
+    visited[index(body)] = true;
+    group.mass += model_.bodies[index(body)].mass;
+    group.is_grounded |= model_.bodies[index(body)].clamped;
+    for (const AttachmentIndex far : ends_[index(body)]) {
+      include(far, visited, group);
+    }
+  }
+
   void add_end(AttachmentIndex near, AttachmentIndex far) {
     const BodyIndex body = model_.attachments[index(near)].body;
     if (body != kWorld) ends_[index(body)].push_back(far);

@@ -16,9 +16,11 @@ namespace limber::dynamics {
 /// diameters along the longest path that starts with that coupler. Independent
 /// of the configuration. A flexible body's diameter is that of its bounding
 /// box, a rigid body's is twice the distance of its farthest attachment from
-/// the centre of mass.
+/// the centre of mass. A body does not carry what holds it: bodies beyond a
+/// coupler that the world holds, or that have more mass than all others that
+/// are joined to the body.
 /// @returns one entry an attachment [m]; zero without a coupler, or if it leads
-/// to the world.
+/// to what holds the body.
 [[nodiscard]] std::vector<double> find_reaches(const SystemModel& model);
 
 /// Largest displacement that modal coordinates of one body cause.

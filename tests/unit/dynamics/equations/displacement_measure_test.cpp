@@ -18,7 +18,9 @@ using ::limber::testing::make_uncoupled_chain;
 
 constexpr double kRoundoff = 1e-12;
 
-// Each coupler's end carries all that lies beyond it.
+// Each coupler's end carries all that lies beyond it, but not the larger part
+// of the chain, which holds the body; here half of it is not more than the
+// rest.
 TEST(Reaches, OfAChainAreTheDiametersBeyond) {
   const SystemModel model = make_uncoupled_chain(4);
   const double diameter = model.bodies[0].reduced->size.norm();
@@ -28,8 +30,11 @@ TEST(Reaches, OfAChainAreTheDiametersBeyond) {
   EXPECT_EQ(reaches.back(), 0.0);
   for (int joint = 0; joint < 3; ++joint) {
     const auto tip = index(2 * joint + 1);
-    EXPECT_NEAR(reaches[tip], (3 - joint) * diameter, kRoundoff);
-    EXPECT_NEAR(reaches[tip + 1], (joint + 1) * diameter, kRoundoff);
+    const int beyond = 3 - joint;  // of 4 equal bodies
+    const int behind = joint + 1;
+    EXPECT_NEAR(reaches[tip], beyond <= 2 ? beyond * diameter : 0.0, kRoundoff);
+    EXPECT_NEAR(reaches[tip + 1], behind <= 2 ? behind * diameter : 0.0,
+                kRoundoff);
   }
 }
 
