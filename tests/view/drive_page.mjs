@@ -80,9 +80,10 @@ async function comparePeaks(tab) {
     assert.equal(value, probes[name].peak, `peak of ${name}`);
     assert.equal(time, probes[name].peak_time, `time of the peak of ${name}`);
   }
-  const missed = await tab.evaluate(() => {
+  const missed = await tab.evaluate(async () => {
     const { view } = window.limber;
     view.probeGroups.forEach((group) => view.plots.has(group) || view.plots.add(group));
+    await new Promise((done) => setTimeout(done, 100)); // plots find their scales later
     const out = view.plots.shown.flatMap(({ group, plot }) => group.series.filter(
       ({ peak }) => !(plot.scales.y.min <= peak.value && peak.value <= plot.scales.y.max)));
     view.probeGroups.forEach((group) => view.plots.remove(group));
