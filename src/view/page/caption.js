@@ -1,5 +1,5 @@
-// What stands around the canvas, drawn into a picture that is saved: title, time,
-// magnification and legend.
+// What stands around the canvas, drawn into pictures and films that are saved:
+// title, time, magnification and legend.
 
 const kMargin = 14; // [pixels of the page]
 
@@ -51,14 +51,12 @@ function drawLegend(context, legend, style, y) {
   legend.notes.forEach((note, i) => context.fillText(note, x, top + height + 8 + 17 * i));
 }
 
-/// A copy of the canvas with its caption.
+/// Draws the canvas and its caption into another one, of the size of the first.
 /// @param caption { title, lines: texts, legend or null, style: { back, ink }, scale:
 /// pixels of the canvas a pixel of the page }
-export function addCaption(canvas, { title, lines, legend, style, scale }) {
-  const picture = document.createElement('canvas');
-  picture.width = canvas.width;
-  picture.height = canvas.height;
+export function drawWithCaption(canvas, { title, lines, legend, style, scale }, picture) {
   const context = picture.getContext('2d');
+  context.setTransform(1, 0, 0, 1, 0, 0);
   context.drawImage(canvas, 0, 0);
   context.scale(scale, scale);
   context.textBaseline = 'top';
@@ -70,5 +68,4 @@ export function addCaption(canvas, { title, lines, legend, style, scale }) {
     x: kMargin, y: canvas.height / scale - kMargin - 18 * lines.length, lines, style,
     sizes: lines.map(() => '13px sans-serif'),
   });
-  return picture;
 }

@@ -80,7 +80,9 @@ async function savePicture(view, player, name) {
 async function saveFilm(view, player, name) {
   find('film').classList.add('on');
   try {
-    save(await takeFilm(find('canvas'), player), `${name}.webm`);
+    const film = await takeFilm(
+      find('canvas'), () => view.draw(), () => makeCaption(view, player, name), player);
+    save(film, `${name}.webm`);
   } catch (error) {
     tellNote(error.message);
   }

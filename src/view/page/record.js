@@ -1,5 +1,5 @@
 // Pictures and films of the canvas.
-import { addCaption } from './caption.js';
+import { drawWithCaption } from './caption.js';
 
 // A film without any frame is not larger [bytes].
 const kHeaderOnly = 1000;
@@ -12,20 +12,35 @@ export function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+function copyShape(canvas) {
+  const copy = document.createElement('canvas');
+  copy.width = canvas.width;
+  copy.height = canvas.height;
+  return copy;
+}
+
 /// With its caption. @param draw draws the canvas now, so that it still holds the picture
 export function takePicture(canvas, draw, caption) {
+  const picture = copyShape(canvas);
   draw();
-  const picture = addCaption(canvas, caption());
+  drawWithCaption(canvas, caption(), picture);
   return new Promise((done) => picture.toBlob(done, 'image/png'));
 }
 
-/// Plays the interval once and records it.
-export function takeFilm(canvas, player) {
+/// Plays the interval once and records it, with the caption of each frame.
+/// @param draw, caption as of takePicture
+export function takeFilm(canvas, draw, caption, player) {
   const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((t) =>
     MediaRecorder.isTypeSupported(t),
   );
   if (!type) return Promise.reject(new Error('this browser records no WebM'));
-  const recorder = new MediaRecorder(canvas.captureStream(30), {
+  const frame = copyShape(canvas);
+  const drawFrame = () => {
+    draw();
+    drawWithCaption(canvas, caption(), frame);
+  };
+  drawFrame();
+  const recorder = new MediaRecorder(frame.captureStream(30), {
     mimeType: type, videoBitsPerSecond: 8e6,
   });
   const parts = [];
@@ -47,6 +62,7 @@ export function takeFilm(canvas, player) {
         return;
       }
       last = player.time;
+      drawFrame();
       requestAnimationFrame(watch);
     };
     requestAnimationFrame(watch);
