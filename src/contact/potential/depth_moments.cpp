@@ -54,18 +54,59 @@ Matrix6 sum_squares(const Weights& w, const Vector3& normal) {
   return sum;
 }
 
+/// The sums of products of 1, 2 and 3 of some numbers, repetitions included.
+struct CompleteSums {
+  double first = 0.0;
+  double second = 0.0;
+  double third = 0.0;
+
+  void add(double t) {
+    first += t;
+    second += t * first;
+    third += t * second;
+  }
+};
+
 /// One face's part of the overlap.
 struct Cell {
   const Plane& plane;  // of unit normal, relative to o
   double sign;
   bool has_derivatives;
 
-  void add(double weight, const Vector3& r, CellSums& sums) const {
-    const double t = plane.find_depth(r);
-    const double by_t = 24.0 * weight * t;
-    sums.cubed += 4.0 * weight * t * t * t;
-    sums.squared.add(0.5 * by_t * t, r);
-    if (has_derivatives) sums.linear.add(by_t, r);
+  // A tetrahedron, exactly: with shares s_i of its corners the mean of
+  // t^n s_i s_j over it is 6 n! / (n + 5)! (1 + d_ij) times the complete sum of
+  // degree n of the corners' t and of t_i and t_j again.
+  void add(double volume, const std::array<Vector3, 4>& x,
+           CellSums& sums) const {
+    std::array<double, 4> t;
+    CompleteSums all;
+    for (std::size_t i = 0; i < 4; ++i) all.add(t[i] = plane.find_depth(x[i]));
+    Vector3 X = Vector3::Zero();  // sum x_i
+    Vector3 T = Vector3::Zero();  // sum t_i x_i
+    Vector3 B = Vector3::Zero();  // sum t_i (S + t_i) x_i, S the first sum
+    Matrix3 by_square = Matrix3::Zero();
+    Matrix3 by_t = Matrix3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double b = t[i] * (all.first + t[i]);
+      X += x[i];
+      T += t[i] * x[i];
+      B += b * x[i];
+      const Vector3 half = 0.5 * x[i];
+      by_square +=
+          ((all.second + 2.0 * b + t[i] * t[i]) * half) * x[i].transpose();
+      by_t += ((all.first + 2.0 * t[i]) * half) * x[i].transpose();
+    }
+    sums.cubed += 0.2 * volume * all.third;
+    by_square += (0.5 * all.second * X + B) * X.transpose();
+    by_square += (0.5 * T) * T.transpose();
+    sums.squared.zeroth += 1.2 * volume * all.second;
+    sums.squared.first += 0.2 * volume * (all.second * X + B);
+    sums.squared.second += volume / 35.0 * (by_square + by_square.transpose());
+    if (!has_derivatives) return;
+    by_t += (0.5 * all.first * X + T) * X.transpose();
+    sums.linear.zeroth += 6.0 * volume * all.first;
+    sums.linear.first += 1.2 * volume * (all.first * X + T);
+    sums.linear.second += 0.2 * volume * (by_t + by_t.transpose());
   }
 };
 
@@ -82,10 +123,7 @@ void integrate(const Polytope& part, const Cell& cell, CellSums& sums) {
                                      corners[k + 1]};
       const double volume =
           (x[1] - apex).dot((x[2] - apex).cross(x[3] - apex)) / 6.0;
-      if (volume == 0.0) continue;
-      for (const auto& point : tetrahedron_rule()) {
-        cell.add(volume * point.weight, point.find_place(x), sums);
-      }
+      if (volume != 0.0) cell.add(volume, x, sums);
     }
   }
 }

@@ -63,6 +63,14 @@ void cut(const Facet& facet, std::span<const double> depths, Polytope& out,
   }
 }
 
+// Grows with the angle of (x, y), from -2 to 2 in one turn.
+double find_turn(double x, double y) {
+  const double sum = std::abs(x) + std::abs(y);
+  if (!(sum > 0.0)) return 0.0;
+  if (x >= 0.0) return y / sum;
+  return std::copysign(2.0, y) - y / sum;
+}
+
 // Adds the same corners in the order of their angles about their middle.
 void close(const Rim& rim, const Plane& plane, int tag, Polytope& out) {
   const std::span<const Vector3> corners = rim.all();
@@ -74,7 +82,7 @@ void close(const Rim& rim, const Plane& plane, int tag, Polytope& out) {
   StackArray<std::pair<double, const Vector3*>, kMostOfRim> sorted;
   for (const Vector3& x : corners) {
     const Vector3 r = x - middle;
-    sorted.add() = {std::atan2(v.dot(r), u.dot(r)), &x};
+    sorted.add() = {find_turn(u.dot(r), v.dot(r)), &x};
   }
   std::ranges::sort(sorted.all(), {}, [](const auto& at) { return at.first; });
   out.begin_facet(tag);

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
+#include "limber/common/stack_array.hpp"
 #include "limber/contact/potential/line_rule.hpp"
 
 namespace limber::contact {
@@ -102,6 +104,51 @@ struct SurfaceSums {
   }
 };
 
+/// SurfaceSums that keep their points, up to a number, for sums of them again.
+class KeptSums {
+ public:
+  struct Point {
+    Depth depth;
+    Vector3 r = Vector3::Zero();
+    double weight = 0.0;             // along its line
+    Vector3 area = Vector3::Zero();  // that it stands for
+  };
+  struct Line {
+    KeptSums& all;
+    std::size_t first;  // point
+    LineSums sums = {};
+
+    void add(const Depth& depth, const Vector3& r, double weight) {
+      sums.add(depth, r, weight);
+      all.keep({.depth = depth, .r = r, .weight = weight});
+    }
+  };
+
+  [[nodiscard]] Line begin_line() { return {*this, points_.all().size()}; }
+  void add(const Line& line, const Vector3& area) {
+    sums_.add(line.sums, area);
+    for (Point& point : points_.all().subspan(line.first)) {
+      point.area = point.weight * area;
+    }
+  }
+
+  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }
+  [[nodiscard]] bool has_all_points() const { return has_all_; }
+  [[nodiscard]] std::span<const Point> points() const { return points_.all(); }
+
+ private:
+  static constexpr std::size_t kMost = 2048;
+
+  void keep(const Point& point) {
+    has_all_ = has_all_ && points_.all().size() < kMost;
+    if (has_all_) points_.add() = point;
+  }
+
+  SurfaceSums sums_;
+  bool has_all_ = true;
+  StackArray<Point, kMost> points_;
+};
+
 /// int 24 t (a . p) g g' dS, with the area along n.
 class BendSums {
  public:
@@ -122,6 +169,13 @@ class BendSums {
   [[nodiscard]] Line begin_line() const { return {a_}; }
   void add(const Line& line, const Vector3& area) {
     bend_ += n_.dot(area) * line.bend;
+  }
+  void add(std::span<const KeptSums::Point> points) {
+    for (const KeptSums::Point& point : points) {
+      Line line = begin_line();
+      line.add(point.depth, point.r, 1.0);
+      add(line, point.area);
+    }
   }
   [[nodiscard]] const Matrix6& bend() const { return bend_; }
 
@@ -330,8 +384,9 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
   // Share of M next to an edge of `soft`, from which on ln u, whose second
   // derivative jumps there, counts as ln (C / x) of the motion x.
   constexpr double kEdged = 1e-2;
-  SurfaceSums sums;
-  integrate_parts(o, sums);
+  KeptSums kept;
+  integrate_parts(o, kept);
+  const SurfaceSums& sums = kept.sums();
   DepthMoments out;
   double of_sheets = 0.0;
   for (const RuledSurface& sheet : soft_.sheets()) {
@@ -361,7 +416,8 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
     bend = log_u * log_u.transpose();
   } else if (has_derivatives) {
     BendSums of_sums(form.by_sums, way);
-    integrate_parts(o, of_sums);
+    kept.has_all_points() ? of_sums.add(kept.points())
+                          : integrate_parts(o, of_sums);
     bend = of_sums.bend() + find_bend_of_form(pressure, slopes, way, form);
   }
   out.factor = find_factor_of_form(form, sign * slopes, bend);
