@@ -66,6 +66,8 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       middle_(make_state(model)),
       next_(make_state(model)),
       turns_(model.bodies.size(), Vector3::Zero()),
+      unresolved_(model, settings.damps_unresolved),
+      change_(VectorX::Zero(model.modal_count)),
       residual_(VectorX::Zero(count_unknowns(model))),
       x_(VectorX::Zero(count_unknowns(model))),
       step_(make_rates(model)),
@@ -168,7 +170,10 @@ void EnergyConserving::advance(const SystemState& from, double h, double end) {
     body.w_WB_B = 2.0 * mean.w_WB_B - old.w_WB_B;
   }
   next_.eta = from.eta + h * middle_.etadot;
-  next_.etadot = 2.0 * middle_.etadot - from.etadot;
+  for (Eigen::Index i = 0; i < next_.etadot.size(); ++i) {
+    const double mean = middle_.etadot[i];
+    next_.etadot[i] = mean + unresolved_.ratio(i) * (mean - from.etadot[i]);
+  }
   middle_.eta = 0.5 * (from.eta + next_.eta);
   maxwell_.advance(from, next_);
   middle_.maxwell = 0.5 * (from.maxwell + next_.maxwell);
@@ -218,7 +223,9 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
     }
     residual_[row + 6 + k] =
         2.0 * (change / h - inertial + elastic_[i] +
-               body.damping[k] * middle_.etadot[i] - t.modal_force[k]);
+               (body.damping[k] + unresolved_.damping(i)) * middle_.etadot[i] -
+               t.modal_force[k]);
+    change_[i] = change;
   }
   residual_.segment<6>(row).setZero();
   if (!body.has_rigid_motion()) return;
@@ -344,9 +351,23 @@ void EnergyConserving::fail(double end, const char* what) {
       settings_.tolerance));
 }
 
+// Of modes that the step does not resolve.
+void EnergyConserving::add_losses(const SystemState& from, double h) {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    for (int k = 0; k < body.modes; ++k) {
+      const Eigen::Index i = body.offset + k;
+      mean_.bodies[b].dissipated +=
+          unresolved_.find_loss(i, next_.etadot[i] - from.etadot[i], change_[i],
+                                middle_.etadot[i], h);
+    }
+  }
+}
+
 StepResult EnergyConserving::step(SystemState& state, double h, double end) {
-  coefficients_ = {4.0 / (h * h), 2.0 / h};
+  coefficients_ = {4.0 / (h * h), 2.0 / h, &unresolved_.calming()};
   maxwell_.set_step(h, mean_);
+  unresolved_.set_step(model_, h);
   copy_step_constants(state, next_);
   calc_terms(model_, state, Side::right, begin_);
   predict(state, h);
@@ -392,6 +413,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
         contracts_poorly(result.factorizations > 0 ? kPoorFreshContraction
                                                    : kPoorStepContraction);
   }
+  add_losses(state, h);
   flows_.clear();
   add_powers(mean_, h, flows_);
   set_work(flows_, result);

@@ -9,6 +9,7 @@
 #include "limber/dynamics/integrators/step_forces.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/unresolved_modes.hpp"
 
 namespace limber::dynamics {
 
@@ -31,9 +32,10 @@ namespace limber::dynamics {
 ///            of kinetic energy, without remainder.
 /// Source     energy and momentum conserving schemes: [@simo1991] for rigid
 ///            bodies, [@gonzalez1996]; the inertial coupling is Limber's own
-/// Limits     second order. Without numerical damping: motion that the step
-///            does not resolve persists, with its energy and the wrong
-///            frequency. A joint must turn less than half a turn a step. Energy
+/// Limits     second order. Without numerical damping, unless
+///            Settings::damps_unresolved: motion that the step does not
+///            resolve persists, with its energy and the wrong frequency. A
+///            joint must turn less than half a turn a step. Energy
 ///            is not conserved at level one-way, whose equations do not
 ///            conserve it. Not for level `full`.
 class EnergyConserving final : public Integrator {
@@ -45,6 +47,8 @@ class EnergyConserving final : public Integrator {
     /// motion [-].
     double tolerance = 1e-12;
     int max_iterations = 20;  ///< count, per step
+    /// Whether UnresolvedModes damps; that counts as dissipated.
+    bool damps_unresolved = false;
   };
 
   EnergyConserving(const SystemModel& model, const Settings& settings);
@@ -71,6 +75,7 @@ class EnergyConserving final : public Integrator {
   void calc_residual(const SystemState& from, double h);
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
   void factor(const SystemState& from);
+  void add_losses(const SystemState& from, double h);
   [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
   void turn_increments();
   [[nodiscard]] bool reverses_last() const;
@@ -100,6 +105,8 @@ class EnergyConserving final : public Integrator {
   SystemState middle_;  // velocities and eta; its positions are not used
   SystemState next_;
   std::vector<Vector3> turns_;  // of bodies over the step
+  UnresolvedModes unresolved_;
+  VectorX change_;  // of the momenta of modes over the step
   VectorX residual_;
   VectorX x_;
   Rates step_;  // of velocities over the step

@@ -46,8 +46,10 @@ std::unique_ptr<Integrator> make_integrator(
                                    settings.newton_iterations, is_euler,
                                    settings.tolerance > 0.0});
     if (!conserves_impacts(model, settings)) return own;
+    EnergyConserving::Settings conserving = read_conserving(settings);
+    conserving.damps_unresolved = true;
     return std::make_unique<ImpactIntegrator>(model, std::move(own),
-                                              read_conserving(settings));
+                                              conserving);
   };
   switch (settings.integrator) {
     case IntegratorKind::generalized_alpha:

@@ -44,6 +44,10 @@ void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
         (c.acceleration + c.velocity * body.damping.array() +
          (1.0 + terms.maxwell_stiffness) * lambda.array())
             .inverse();
+    if (c.calming == nullptr) return;
+    inverse_modes_.array() /=
+        1.0 + inverse_modes_.array() *
+                  c.calming->segment(body.offset, body.modes).array();
     return;
   }
   diagonal_.array() = c.acceleration + c.velocity * body.damping.array() +

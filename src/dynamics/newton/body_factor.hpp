@@ -25,7 +25,7 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
 ///            BodyTerms::maxwell_stiffness,
 ///            S = (c J + v (w x J - (J w) x)) T; c, v: derivatives of
 ///            acceleration and velocity at the step's end, T: of the step's
-///            rotation
+///            rotation; to a diagonal K Coefficients::calming is added
 class BodyFactor {
  public:
   using Coefficients = FullFactor::Coefficients;

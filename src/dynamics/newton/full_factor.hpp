@@ -23,6 +23,9 @@ class FullFactor {
   struct Coefficients {
     double acceleration = 0.0;  ///< [1/s^2]
     double velocity = 0.0;      ///< [1/s]
+    /// Of all modes, what numerical damping adds to the diagonal of those whose
+    /// elasticity is diagonal; null: nothing [1/s^2].
+    const VectorX* calming = nullptr;
   };
 
   /// Takes the state's R_HB; refactors if the coefficients changed or if
