@@ -42,7 +42,7 @@ py::list list_peaks(const RecordedRun& run) {
 
 /// Edges (n + 1), and least and most of a column (n).
 py::tuple get_envelope(const py::object& self, py::ssize_t column) {
-  const dynamics::Envelopes& envelopes = run_of(self).run.record.envelopes;
+  const Envelopes& envelopes = run_of(self).run.record.envelopes;
   const Eigen::Index rows = envelopes.least.rows();
   const auto side = [&](const MatrixX& values) {
     return view_of(values.data() + column * rows, {rows}, {1}, self);

@@ -50,7 +50,7 @@ void write_peaks(std::ostream& out, const History& history,
 }
 
 void write_envelopes(std::ostream& out, const History& history,
-                     const dynamics::Envelopes& envelopes) {
+                     const Envelopes& envelopes) {
   out << "from [s],to [s]";
   for (const ProbeColumn& column : history.columns) {
     for (const char* side : {"least", "most"}) {
@@ -105,8 +105,7 @@ void write_peaks_csv(const std::filesystem::path& file, const History& history,
 }
 
 void write_envelopes_csv(const std::filesystem::path& file,
-                         const History& history,
-                         const dynamics::Envelopes& envelopes) {
+                         const History& history, const Envelopes& envelopes) {
   write_text_file(file, [&](std::ostream& out) {
     write_envelopes(out, history, envelopes);
   });

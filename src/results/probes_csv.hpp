@@ -25,7 +25,6 @@ void write_peaks_csv(const std::filesystem::path& file, const History& history,
 /// nothing between commas where there is none.
 /// @throws InputError if it cannot be written.
 void write_envelopes_csv(const std::filesystem::path& file,
-                         const History& history,
-                         const dynamics::Envelopes& envelopes);
+                         const History& history, const Envelopes& envelopes);
 
 }  // namespace limber::results

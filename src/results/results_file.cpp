@@ -44,7 +44,7 @@ void write_extremes(Hdf5File& out, const History& history,
               history.columns[c].unit + ", s",
               "value of largest magnitude of all steps, and its time");
   }
-  const dynamics::Envelopes& envelopes = record.envelopes;
+  const Envelopes& envelopes = record.envelopes;
   if (envelopes.is_empty()) return;
   const MatrixX edges = Eigen::Map<const VectorX>(envelopes.edges.data(),
                                                   std::ssize(envelopes.edges));

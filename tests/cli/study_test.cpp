@@ -12,6 +12,7 @@
 
 #include "cli/command.hpp"
 #include "cli/shell.hpp"
+#include "cli/sled_study.hpp"
 #include "places.hpp"
 
 namespace limber::test::study_test {
@@ -21,101 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const char* const kRobot = R"(<robot name='r'><link name='world'/>
-<link name='sled'><inertial><mass value='3'/><inertia ixx='0.1' iyy='0.1'
-  izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>
-<joint name='rail' type='prismatic'><parent link='world'/><child link='sled'/>
-  <axis xyz='1 0 0'/><limit lower='-9' upper='9' effort='0' velocity='0'/>
-</joint>
-<spring name='coil' stiffness='10' free_length='1'>
-  <from link='world' point='-1 0 0'/><to link='sled'/></spring></robot>)";
-
-const char* const kScenario = R"(robot = 'robot.urdf'
-[time]
-duration = 0.5
-step = 1e-3
-output_interval = 0.01
-[initial.joints]
-rail = { position = 0.1 }
-[[load]]
-name = 'push'
-link = 'sled'
-force = [1, 0, 0]
-[[probe]]
-name = 'sled'
-link = 'sled'
-)";
-
-const char* const kStudy = R"(scenario = 's.toml'
-[design]
-kind = 'monte-carlo'
-samples = 12
-seed = 5
-[[factor]]
-name = 'force'
-path = 'load.push.force.0'
-uniform = [-2.0, 2.0]
-[[factor]]
-name = 'stiffness'
-path = 'robot.spring.coil.stiffness'
-log_range = [1.0, 100.0]
-[[response]]
-name = 'x'
-probe = 'sled.ux'
-[[response]]
-name = 'when'
-probe = 'sled.ux'
-measure = 'time'
-[[response]]
-name = 'last'
-probe = 'sled.ux'
-measure = 'final'
-[[response]]
-name = 'size'
-probe = 'sled.ux'
-measure = 'rms'
-[[response]]
-name = 'work'
-summary = 'energy.work'
-[[response]]
-name = 'per_force'
-expression = 'x / force'
-)";
-
-std::string replace(std::string text, const std::string& old,
-                    const std::string& by) {
-  EXPECT_NE(text.find(old), std::string::npos) << old;
-  return text.replace(text.find(old), old.size(), by);
-}
-
-class AStudy : public ::testing::Test {
- protected:
-  AStudy() {
-    place_.write("robot.urdf", kRobot);
-    place_.write("s.toml", kScenario);
-    place_.write("study.toml", kStudy);
-  }
-
-  [[nodiscard]] std::string run(const std::string& options) const {
-    const CommandResult result = place_.limber("study " + options);
-    EXPECT_EQ(result.status, 0) << result.errors;
-    return result.out;
-  }
-
-  [[nodiscard]] std::string table(const std::string& folder) const {
-    return read_text(place_.folder() / folder / "study.csv");
-  }
-
-  void expect_refused(const std::string& options,
-                      const std::string& words) const {
-    const CommandResult result = place_.limber("study " + options);
-    EXPECT_EQ(result.status, 2) << result.out;
-    EXPECT_THAT(result.errors, HasSubstr(words));
-  }
-
-  Workspace place_;
-};
 
 TEST_F(AStudy, HasTheResponsesOfSingleRunsToTheBit) {
   (void)run("study.toml --out a --csv --jobs 2");
@@ -244,106 +150,6 @@ TEST_F(AStudy, OfAnotherLayoutIsRefused) {
   expect_refused("study.toml --out a", "is of layout '7'; this Limber reads 2");
   expect_refused("--collect a/study.sqlite --out b", "is of layout '7'");
   EXPECT_EQ(place_.limber("run --from a/study.sqlite#1").status, 2);
-}
-
-TEST_F(AStudy, TellsHowItsResponsesAreDistributed) {
-  const json summary = json::parse(run("study.toml --out a --json"));
-  const json& x = summary["responses"]["x"];
-  EXPECT_GT(x["mean_error"], 0.0);
-  EXPECT_LE(x["quantiles"]["0.05"], x["quantiles"]["0.5"]);
-  EXPECT_LE(x["quantiles"]["0.5"], x["quantiles"]["0.95"]);
-  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) return;
-  for (const char* name : {"response_x", "map_x", "matrix", "distribution"}) {
-    EXPECT_TRUE(
-        fs::exists(place_.folder() / "a" / (name + std::string(".png"))))
-        << name;
-  }
-}
-
-// Ishigami's function with a constant 100: closed forms of its effects, which
-// samples of a response far from zero must not lose.
-TEST_F(AStudy, TellsEffectsOfFactorsWhereItsSamplesCarryThem) {
-  const auto make = [&](int samples) {
-    std::string text =
-        "scenario = 's.toml'\nset = ['time.duration=0.001']\n"
-        "[design]\nkind = 'sobol'\nsamples = " +
-        std::to_string(samples) + "\n";
-    for (const char* name : {"a", "b", "c"}) {
-      text += fmt::format(
-          "[[factor]]\nname = '{}'\npath = 'load.push.force.{}'\nuniform = "
-          "[-3.141592653589793, 3.141592653589793]\n",
-          name, name[0] - 'a');
-    }
-    return text +
-           "[[response]]\nname = 'y'\nexpression = '100 + sin(a) + "
-           "7 * sin(b)^2 + 0.1 * c^4 * sin(a)'\n";
-  };
-  place_.write("study.toml", make(256));
-  const json effects = json::parse(
-      run("study.toml --out a --json"))["responses"]["y"]["effects"];
-  const std::pair<const char*, double> truth[] = {
-      {"a", 0.31390519}, {"b", 0.44241114}, {"c", 0.0}};
-  for (const auto& [name, main] : truth) {
-    const json& effect = effects[name];
-    EXPECT_LE(effect["main_interval"][0], main) << name;
-    EXPECT_GE(effect["main_interval"][1], main) << name;
-    EXPECT_NEAR(effect["main"].get<double>(), main, 0.1) << name;
-    EXPECT_FALSE(effect.contains("doubt")) << name;
-  }
-  place_.write("study.toml", make(12));
-  EXPECT_THAT(run("study.toml --out b"),
-              HasSubstr("cannot tell with 12 samples"));
-  const json few = json::parse(run("study.toml --out b --json"));
-  EXPECT_TRUE(few["responses"]["y"]["effects"]["a"]["main"].is_null());
-}
-
-// x grows with the force at any stiffness, but is no line of it.
-TEST_F(AStudy, CorrelatesResponsesWithFactors) {
-  const json x =
-      json::parse(run("study.toml --out a --json"))["responses"]["x"];
-  EXPECT_TRUE(x["correlations"].contains("force"));
-  EXPECT_EQ(x["correlations"]["stiffness"]["samples"], 12);
-  EXPECT_THAT(run("study.toml --out a"), HasSubstr("of ranks"));
-}
-
-// A step of a damped oscillator through the command: m = 3 kg, k = 1200 N/m,
-// so omega = 20 rad/s; c = 2 zeta m omega with zeta = 0.1. Its first
-// acceleration is F / m; differences around h miss less than 2 zeta omega h +
-// (omega h)^2 of it.
-TEST_F(AStudy, MeasuresOvershootSettlingFrequencyAndAcceleration) {
-  place_.write("robot.urdf",
-               replace(kRobot, "stiffness='10' free_length='1'",
-                       "stiffness='1200' damping='12' free_length='1'"));
-  place_.write("s.toml",
-               replace(replace(kScenario, "duration = 0.5", "duration = 8.0"),
-                       "output_interval = 0.01", "output_interval = 0.002"));
-  std::string text =
-      "scenario = 's.toml'\nset = ['initial.joints.rail.position=0.0']\n"
-      "[design]\nkind = 'list'\n[[factor]]\nname = 'force'\n"
-      "path = 'load.push.force.0'\nvalues = [6, -12]\n";
-  for (const char* measure :
-       {"overshoot", "settling_time", "frequency", "acceleration"}) {
-    text += fmt::format(
-        "[[response]]\nname = '{0}'\nprobe = 'sled.ux'\nmeasure = '{0}'\n",
-        measure);
-  }
-  place_.write("study.toml", text);
-  const json found = json::parse(run("study.toml --out a --json"))["responses"];
-  const double zeta = 0.1;
-  const double root = std::sqrt(1.0 - zeta * zeta);
-  const double beyond = std::exp(-M_PI * zeta / root);
-  for (const char* end : {"least", "largest"}) {
-    EXPECT_NEAR(found["overshoot"][end].get<double>(), beyond, 2e-3);
-    EXPECT_NEAR(found["frequency"][end].get<double>(),
-                20.0 * root / (2.0 * M_PI), 0.05);
-    EXPECT_LE(found["settling_time"][end].get<double>(),
-              -std::log(0.02 * root) / (zeta * 20.0));
-    EXPECT_GE(found["settling_time"][end].get<double>(),
-              -std::log(0.02 * root) / (zeta * 20.0) - M_PI / (20.0 * root));
-  }
-  const double late = 2.0 * zeta * 20.0 * 0.002 + std::pow(20.0 * 0.002, 2);
-  EXPECT_NEAR(found["acceleration"]["least"].get<double>(), 2.0, 2.0 * late);
-  EXPECT_NEAR(found["acceleration"]["largest"].get<double>(), 4.0, 4.0 * late);
 }
 
 TEST_F(AStudy, OpensARunAgainWithItsPage) {

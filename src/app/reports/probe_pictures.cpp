@@ -12,8 +12,7 @@
 namespace limber::app {
 namespace {
 
-results::Band make_band(const dynamics::Envelopes& envelopes,
-                        std::size_t column) {
+results::Band make_band(const Envelopes& envelopes, std::size_t column) {
   const auto c = static_cast<Eigen::Index>(column);
   const auto least = envelopes.least.col(c);
   const auto most = envelopes.most.col(c);

@@ -51,8 +51,7 @@ void simulate(const scene::BuiltScene& built, const Progress& progress,
                      statistics, continuation, followed, record);
 }
 
-void include_outputs(const results::History& history,
-                     dynamics::Envelopes& envelopes) {
+void include_outputs(const results::History& history, Envelopes& envelopes) {
   for (std::size_t i = 0; i < history.times.size(); ++i) {
     for (std::size_t c = 0; c < history.probe_rows[i].size(); ++c) {
       dynamics::include(envelopes, c, history.probe_rows[i][c],

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/common/records/envelopes.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
-#include "limber/dynamics/system/envelopes.hpp"
 
 namespace limber::dynamics {
 
@@ -34,7 +34,7 @@ using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 class PeakWatch {
  public:
   /// @param model of the states; stored by reference
-  /// @param edges of the intervals (dynamics/system/envelopes.hpp)
+  /// @param edges of the intervals (common/records/envelopes.hpp)
   PeakWatch(const SystemModel& model, Followed followed,
             std::vector<double> edges = {});
 
@@ -98,7 +98,7 @@ class PeakWatch {
     return followed_.find_place ? followed_.find_place(scalar) : -1;
   }
   void include(std::size_t scalar, const PeakPoint& point) {
-    dynamics::include(envelopes_, scalar, point.y, point.t);
+    limber::include(envelopes_, scalar, point.y, point.t);
     if (peaks_[scalar].include(point.y, point.t)) {
       places_[scalar] = point.place;
     }

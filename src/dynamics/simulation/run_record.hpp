@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/common/progress.hpp"
+#include "limber/common/records/envelopes.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/dynamics/monitors/contact_record.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
@@ -11,7 +12,6 @@
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/observer.hpp"
 #include "limber/dynamics/simulation/simulation_statistics.hpp"
-#include "limber/dynamics/system/envelopes.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {

@@ -67,7 +67,7 @@ TEST(PeaksCsv, HasOneRowAColumn) {
 
 TEST(EnvelopesCsv, HasOneRowAnInterval) {
   const TemporaryFolder folder;
-  dynamics::Envelopes envelopes = dynamics::make_envelopes({0.0, 0.5, 1.0}, 2);
+  Envelopes envelopes = make_envelopes({0.0, 0.5, 1.0}, 2);
   include(envelopes, 0, -1.0, 0.0);
   include(envelopes, 0, 3.0, 0.25);
   include(envelopes, 1, 7.0, 0.75);

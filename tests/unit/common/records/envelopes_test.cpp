@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/system/envelopes.hpp"
+#include "limber/common/records/envelopes.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
-namespace limber::dynamics::envelopes_test {
+namespace limber::test::envelopes_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -93,4 +93,4 @@ TEST(Envelopes, ComeBackFromALog) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics::envelopes_test
+}  // namespace limber::test::envelopes_test

@@ -7,7 +7,7 @@
 #include "limber/common/records/archive.hpp"
 #include "limber/common/types.hpp"
 
-namespace limber::dynamics {
+namespace limber {
 
 /// Smallest and largest values of scalars in each of n intervals of time.
 struct Envelopes {
@@ -42,4 +42,4 @@ void write_intervals(const Envelopes& envelopes, double from, double to,
 /// @throws InputError if the log is damaged.
 void read_intervals(Archive& log, Envelopes& envelopes);
 
-}  // namespace limber::dynamics
+}  // namespace limber

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/system/envelopes.hpp"
+#include "limber/common/records/envelopes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace limber::dynamics {
+namespace limber {
 namespace {
 
 // About one for each pixel of a plot.
@@ -123,4 +123,4 @@ void read_intervals(Archive& log, Envelopes& envelopes) {
   }
 }
 
-}  // namespace limber::dynamics
+}  // namespace limber
