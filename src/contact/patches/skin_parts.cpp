@@ -48,18 +48,20 @@ bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
   return !out.bodies.empty();
 }
 
-void add_bodies(const flexbody::ContactSurface& surface,
+// @return whether every slice has one
+bool add_bodies(const flexbody::ContactSurface& surface,
                 const std::vector<SkinFacet>& facets, SkinParts& out) {
   const std::vector<bool> is_exact = find_exact_nodes(surface);
   for (std::size_t i = 0; i < surface.slices.size(); ++i) {
     const SkinSlice slice(surface, facets, is_exact, surface.slices[i]);
     auto found = find_round_body(slice);
     if (!found) found = find_hull(slice);
-    if (!found) continue;
+    if (!found) return false;
     out.bodies.push_back(std::move(found->body));
     out.slices.push_back(i);
     out.error = std::max(out.error, found->error);
   }
+  return true;
 }
 
 }  // namespace
@@ -68,10 +70,10 @@ SkinParts split_skin(const flexbody::ContactSurface& surface) {
   SkinParts out;
   if (surface.slices.empty()) return out;
   const std::vector<SkinFacet> facets = find_facets(surface);
-  if (is_polyhedral(facets) && add_solids(surface, out)) return out;
-  out = {};
-  add_bodies(surface, facets, out);
-  return out;
+  const bool is_whole = is_polyhedral(facets)
+                            ? add_solids(surface, out)
+                            : add_bodies(surface, facets, out);
+  return is_whole ? out : SkinParts{};
 }
 
 }  // namespace limber::contact

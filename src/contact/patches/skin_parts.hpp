@@ -27,8 +27,8 @@ struct SkinParts {
 /// by the planes of each slice. Faces in these planes do not press.
 /// Of another surface each slice is one body: a ball, a cylinder with its ends,
 /// or a capsule (see find_round_body), or else a hull (see find_hull).
-/// @returns nothing of a surface without slices, and of more than
-/// kMostSkinParts bodies
+/// @returns nothing of a surface without slices, or where a slice has no body,
+/// or of more than kMostSkinParts bodies
 [[nodiscard]] SkinParts split_skin(const flexbody::ContactSurface& surface);
 
 }  // namespace limber::contact

@@ -79,6 +79,8 @@ double find_hull_error(const ConvexSolid& solid, const SkinSlice& slice,
 std::optional<SliceBody> find_hull(const SkinSlice& slice) {
   if (slice.facets.empty()) return {};
   const std::vector<Vector3> points = slice.list_points(slice.facets);
+  constexpr std::size_t kLeast = 4;  // corners of a solid
+  if (points.size() < kLeast) return {};
   const ConvexSolid::Ball ball = find_bounds(points);
   const std::vector<Vector3> all = list_normals(slice.facets, kSameNormal);
   std::vector<Vector3> normals = all;

@@ -53,6 +53,9 @@ void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
   diagonal_.array() = c.acceleration + c.velocity * body.damping.array() +
                       terms.maxwell_stiffness *
                           flexbody::rest_stiffness(body.elasticity).array();
+  if (c.calming != nullptr) {
+    diagonal_ += c.calming->segment(body.offset, body.modes);
+  }
   if (coupled_modes_->factor(diagonal_, terms.stiffness)) return;
   throw NumericalError(fmt::format(
       "body '{}': the matrix of its modes' inertia and elasticity is singular",

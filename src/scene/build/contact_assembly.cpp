@@ -239,9 +239,7 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
         contact::SkinParts parts = contact::split_skin(surface);
         sides.back().side.bodies = std::move(parts.bodies);
         sides.back().side.slices = std::move(parts.slices);
-        if (const auto text = describe_error(plan.name, surface, parts.error)) {
-          warnings_.push_back(*text);
-        }
+        sides.back().warning = describe_error(plan.name, surface, parts.error);
       });
     }
   }
@@ -279,6 +277,14 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   return skin;
 }
 
+// Once for all pairs of a surface.
+void ContactAssembly::warn(const Side& side) {
+  const bool is_known =
+      !side.warning ||
+      std::count(warnings_.begin(), warnings_.end(), *side.warning) > 0;
+  if (!is_known) warnings_.push_back(*side.warning);
+}
+
 void ContactAssembly::add_pair(std::size_t touching, const Side& A,
                                const Side& B, std::vector<PlacedPair>& placed) {
   const ContactOptions& options =
@@ -291,6 +297,9 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
       .touching = touching};
   if (!contact::suits(A.side, B.side)) {
     pair.points.emplace(A.side.shape, B.side.shape);
+  } else {
+    warn(A);
+    warn(B);
   }
   pair.pair =
       builder_.add_pair(pair.name, A.body, B.body,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -35,6 +36,7 @@ class ContactAssembly {
     std::string name;
     dynamics::BodyIndex body = dynamics::kWorld;
     contact::ContactSide side;
+    std::optional<std::string> warning = {};  ///< where its bodies touch
   };
   using Sides = std::vector<Side>;
 
@@ -44,6 +46,7 @@ class ContactAssembly {
   [[nodiscard]] Sides make_flexible(int link);
   std::shared_ptr<const contact::Skin> get_skin(const BodyPlan& plan,
                                                 const std::string& surface);
+  void warn(const Side& side);
   void add_pair(std::size_t touching, const Side& A, const Side& B,
                 std::vector<PlacedPair>& placed);
 

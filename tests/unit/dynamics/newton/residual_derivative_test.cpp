@@ -77,7 +77,8 @@ Point make_point(const SystemModel& model, const SystemState& state,
 // What increments and wrench increments make of it.
 Point move(const SystemModel& model, const Point& from, const VectorX& x,
            const std::vector<Vector6>& dw, double h) {
-  const auto [a, v] = kCoefficients;
+  const double a = kCoefficients.acceleration;
+  const double v = kCoefficients.velocity;
   Point to = from;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
