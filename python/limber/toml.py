@@ -112,9 +112,14 @@ def put(tables, path, text):
         node[_find_key(node, last)] = from_toml(text)
 
 
+_PART = r'(?:"([^"]+)"|([^."]+))'
+
+
 def _split(path):
-    """Parts of a path; those with dots are in double quotes."""
-    return [quoted or plain for quoted, plain in re.findall(r'"([^"]*)"|([^."]+)', path)]
+    """Parts of a path; those with dots are in double quotes. KeyError for another text."""
+    if not re.fullmatch(rf"{_PART}(?:\.{_PART})*", path):
+        raise KeyError(f"'{path}' is no path of a key, such as load.strike.force.2")
+    return [quoted or plain for quoted, plain in re.findall(_PART, path)]
 
 
 def _find_key(node, part):
@@ -122,4 +127,8 @@ def _find_key(node, part):
     if not isinstance(node, list):
         return part
     names = [one.get("name") if isinstance(one, dict) else None for one in node]
-    return names.index(part) if part in names else int(part)
+    if part in names:
+        return names.index(part)
+    if not part.isdigit():
+        raise KeyError(part)
+    return int(part)

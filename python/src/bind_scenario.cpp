@@ -11,6 +11,7 @@
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/control/measured_probe.hpp"
 #include "python_controller.hpp"
@@ -130,9 +131,15 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
     }
     recorded->run = app::simulate_pictured(scene, std::move(made), cache, watch,
                                            {}, judges);
-    if (errors && !recorded->run.failure) {
-      const auto lock = app::lock_libraries();
-      recorded->run.errors = app::estimate_errors(recorded->run, cache, watch);
+    const bool is_asked =
+        errors || (scene.scenario.output.errors && given.empty());
+    if (is_asked && !recorded->run.failure) {
+      try {
+        recorded->run.errors =
+            app::estimate_errors(recorded->run, cache, watch);
+      } catch (const dynamics::Interrupted&) {
+        recorded->run.failure = std::current_exception();
+      }
     }
   }
   recorded->cause = take_cause();

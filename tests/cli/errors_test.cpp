@@ -88,7 +88,7 @@ TEST(Errors, OfTheStepAreThoseOfTheClosedForm) {
     EXPECT_GT(exact, 1e-7);
     EXPECT_NEAR(stated / exact, 1.0, 0.2) << step;
     EXPECT_EQ(errors["probes"]["sled.ux"]["remedy"], "step");
-    EXPECT_TRUE(errors["probes"]["sled.ux"]["adds_up"].get<bool>());
+    EXPECT_TRUE(errors["probes"]["sled.ux"]["adds_up"].is_null());
   }
 }
 

@@ -89,8 +89,11 @@ def test_keys_are_read_from_the_file_and_from_what_was_set(sled):
     assert scenario["robot.spring.coil.stiffness"] == 20.0
     del scenario["time.output_interval"]
     for path in ["time.output_interval", "time.stp", "load.pull.force", "load.push.force.7",
-                 "time.step.0"]:
+                 "load.push.force.-1", "time.step.0"]:
         with pytest.raises(KeyError, match="neither in"):
+            scenario[path]
+    for path in ["", "time..step", 'time."step', ".time"]:
+        with pytest.raises(KeyError, match="is no path"):
             scenario[path]
     with pytest.raises(KeyError, match="robot's file"):
         scenario["robot.spring.coil.damping"]

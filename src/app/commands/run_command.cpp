@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <memory>
 #include <optional>
 
@@ -18,7 +19,6 @@
 #include "limber/app/run/view_page.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/results/checkpoint_file.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -61,8 +61,9 @@ void estimate_errors(Run& run, const std::string& cache) {
   try {
     run.errors =
         estimate_errors(run, cache, watch_signals(make_progress_bar()));
-  } catch (const dynamics::Interrupted&) {
-    run.printed_warnings.emplace_back("interrupted before errors were known");
+  } catch (const std::exception& error) {
+    run.printed_warnings.push_back(
+        fmt::format("errors are not known: {}", error.what()));
     print_warnings({run.printed_warnings.back()});
   }
   clear_progress_bar();

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
-
-#include "limber/common/index.hpp"
+#include <string_view>
+#include <utility>
 
 namespace limber::app {
 namespace {
@@ -41,14 +43,39 @@ bool is_geometry(const std::filesystem::path& file) {
   return std::count(kGeometries.begin(), kGeometries.end(), extension) > 0;
 }
 
+/// The longest step that a run of fixed steps takes: outputs divide the time,
+/// and each part is divided evenly; explicit schemes stay stable.
+double find_step_taken(const Run& run) {
+  const dynamics::SimulationSettings& settings = run.built.settings;
+  double step = settings.step;
+  for (const dynamics::StepChange& change : settings.step_changes) {
+    step = std::min(step, change.step);
+  }
+  const double stable = run.statistics.stable_step;
+  if (stable > 0.0) step = std::min(step, stable);
+  double longest = 0.0;
+  double begin = run.built.initial.t;
+  const auto take = [&](double end) {
+    const double span = end - begin;
+    if (span > 0.0) {
+      constexpr double kRounding = 1e-9;
+      longest = std::max(longest, span / std::ceil(span / step - kRounding));
+    }
+    begin = std::max(begin, end);
+  };
+  for (const double t : settings.output_times) take(t);
+  take(settings.end_time);
+  return longest > 0.0 ? longest : step;
+}
+
 class Finder {
  public:
-  Finder(const scene::Scene& scene, const scene::BuiltScene& built,
-         const dynamics::RunRecord& record)
-      : scene_(scene),
-        scenario_(scene.scenario),
-        built_(built),
-        record_(record) {}
+  explicit Finder(const Run& run)
+      : run_(run),
+        scene_(run.scene),
+        scenario_(run.scene.scenario),
+        built_(run.built),
+        record_(run.record) {}
 
   ErrorCauses find() {
     add_step();
@@ -80,11 +107,8 @@ class Finder {
           kFiner * settings.tolerance, 1.0 / (1.0 - kFiner));
       return;
     }
-    double step = settings.step;
-    for (const dynamics::StepChange& change : settings.step_changes) {
-      step = std::min(step, change.step);
-    }
-    add("step", "half of the step", {.step = 0.5 * step}, kSecondOrder);
+    add("step", "half of the step", {.step = 0.5 * find_step_taken(run_)},
+        kSecondOrder);
   }
 
   [[nodiscard]] bool bends(const scene::Link& link) const {
@@ -123,26 +147,53 @@ class Finder {
         std::move(overrides), kFurther);
   }
 
-  void add_level() {
-    std::optional<Fidelity> highest;
-    for (const scene::Link& link : scene_.robot.links) {
-      if (!link.flexible) continue;
-      const Fidelity level = scenario_.level_of(link.name);
-      highest = std::max(highest.value_or(level), level);
+  static std::optional<Fidelity> find_next(Fidelity level) {
+    using enum Fidelity;
+    switch (level) {
+      case rigid:
+      case one_way:
+        return coupled;
+      case uncoupled:
+        return one_way;
+      case coupled:
+        return nonlinear;
+      case nonlinear:
+      case full:
+        break;
     }
-    if (!highest || *highest == Fidelity::full) return;
-    if (*highest == Fidelity::nonlinear) {
+    return {};
+  }
+
+  void add_level() {
+    std::vector<Fidelity> levels;
+    for (const scene::Link& link : scene_.robot.links) {
+      if (link.flexible) levels.push_back(scenario_.level_of(link.name));
+    }
+    if (levels.empty()) return;
+    const auto [lowest, highest] =
+        std::minmax_element(levels.begin(), levels.end());
+    if (*highest == Fidelity::full) {
+      if (*lowest == Fidelity::full) return;
+      found_.unknown.emplace_back("level of links beside those at full");
+      return;
+    }
+    const std::optional<Fidelity> finer =
+        *lowest < *highest ? std::optional(*highest) : find_next(*highest);
+    if (!finer) {
       found_.unknown.emplace_back(
           "level: above nonlinear there is full alone, which takes whole "
           "meshes");
       return;
     }
-    const Fidelity next = *highest == Fidelity::rigid       ? Fidelity::coupled
-                          : *highest == Fidelity::uncoupled ? Fidelity::one_way
-                          : *highest == Fidelity::one_way   ? Fidelity::coupled
-                                                          : Fidelity::nonlinear;
-    add("level", fmt::format("level {}", to_string(next)), {.fidelity = next},
-        1.0);
+    add("level", fmt::format("all links at level {}", to_string(*finer)),
+        {.fidelity = finer}, 1.0);
+  }
+
+  [[nodiscard]] bool is_of_first_order(const scene::Link& link) const {
+    const auto& bodies = built_.model.bodies;
+    return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
+      return body.name == link.name && body.reduced && body.reduced->locking;
+    });
   }
 
   /// Elements of 2/3 of their size, or else of a higher order.
@@ -161,9 +212,12 @@ class Finder {
         change("mesh.size", mesh.size / kFiner);
       } else if (is_geometry(mesh.file) && mesh.order < 3) {
         change("mesh.order", mesh.order == 1 ? 2 : 3);
+      } else if (is_of_first_order(link)) {
+        change("mesh.order", 2);
       } else {
         found_.unknown.push_back(fmt::format(
-            "mesh of link '{}', which no size is given for", link.name));
+            "mesh of link '{}', which can only be made finer by hand",
+            link.name));
       }
     }
     if (overrides.settings.empty()) return;
@@ -177,6 +231,7 @@ class Finder {
         2.0 * built_.settings.impact_steps, kSecondOrder);
   }
 
+  const Run& run_;
   const scene::Scene& scene_;
   const scene::Scenario& scenario_;
   const scene::BuiltScene& built_;
@@ -186,11 +241,7 @@ class Finder {
 
 }  // namespace
 
-ErrorCauses find_error_causes(const scene::Scene& scene,
-                              const scene::BuiltScene& built,
-                              const dynamics::RunRecord& record) {
-  return Finder(scene, built, record).find();
-}
+ErrorCauses find_error_causes(const Run& run) { return Finder(run).find(); }
 
 scene::Overrides join_overrides(const std::vector<ErrorCause>& causes) {
   scene::Overrides joined;

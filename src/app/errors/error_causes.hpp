@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/simulation/run_record.hpp"
-#include "limber/scene/build/build_system.hpp"
+#include "limber/app/run/run_scene.hpp"
 #include "limber/scene/build/scene.hpp"
 
 /// What the error of a run comes from: docs/errors.md.
@@ -26,15 +25,13 @@ struct ErrorCauses {
   std::vector<std::string> unknown;  ///< what no run can show, and why
 };
 
-/// The causes of a scene that was built and run.
+/// The causes of a completed run.
 ///
 /// Halving the step leaves 1/4 of an error of second order, so that the error
 /// is 4/3 of the difference (Richardson 1911), and of first order twice; a mesh
 /// 1.5 times as fine leaves 4/9 of one of second order. Of modes and levels the
 /// difference itself counts, of modes half as much again for those after them.
-[[nodiscard]] ErrorCauses find_error_causes(const scene::Scene& scene,
-                                            const scene::BuiltScene& built,
-                                            const dynamics::RunRecord& record);
+[[nodiscard]] ErrorCauses find_error_causes(const Run& run);
 
 /// All of them in one run.
 [[nodiscard]] scene::Overrides join_overrides(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -13,45 +14,50 @@
 
 #include "limber/app/errors/error_causes.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/run/library_lock.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
 
-std::vector<ColumnValues> take_columns(const Run& run) {
-  std::vector<ColumnValues> columns(run.history.columns.size());
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (c < run.record.peaks.size())
-      columns[c].peak = run.record.peaks[c].value;
-    for (const std::vector<double>& row : run.history.probe_rows) {
-      columns[c].curve.push_back(row[c]);
-    }
+ColumnValues take_column(const Run& run, std::size_t c) {
+  ColumnValues values;
+  if (c < run.record.peaks.size()) values.peak = run.record.peaks[c].value;
+  for (const std::vector<double>& row : run.history.probe_rows) {
+    values.curve.push_back(row[c]);
+  }
+  return values;
+}
+
+/// Columns of these names; none if one is missing.
+std::vector<ColumnValues> take_columns(const Run& run,
+                                       const std::vector<std::string>& names) {
+  std::vector<ColumnValues> columns;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(
+        run.history.columns.begin(), run.history.columns.end(),
+        [&](const results::ProbeColumn& one) { return one.name == name; });
+    if (found == run.history.columns.end()) return {};
+    columns.push_back(take_column(
+        run, static_cast<std::size_t>(found - run.history.columns.begin())));
   }
   return columns;
 }
 
-/// Threads that stop when one throws, or the caller does.
-void run_all(std::size_t count,
-             const std::function<void(std::size_t)>& simulate) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) simulate(i);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      failure = std::current_exception();
-      next = count;
-    }
-  };
-  const std::size_t threads = std::min<std::size_t>(
-      count, std::max(1U, std::thread::hardware_concurrency()));
-  std::vector<std::thread> pool;
-  for (std::size_t i = 0; i < threads; ++i) pool.emplace_back(work);
-  for (std::thread& thread : pool) thread.join();
-  if (failure) std::rethrow_exception(failure);
+/// What work throws; empty where it does not. @throws Interrupted
+std::string try_to(const std::function<void()>& work) {
+  try {
+    work();
+    return "";
+  } catch (const dynamics::Interrupted&) {
+    throw;
+  } catch (const InputError& error) {
+    return error.problems().front();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 /// A scene that is ready to run, or why not.
@@ -65,32 +71,43 @@ class Estimator {
  public:
   Estimator(const Run& own, const std::filesystem::path& cache,
             const Progress& progress)
-      : own_(own), cache_(cache), progress_(progress) {}
+      : own_(own), cache_(cache), progress_(progress) {
+    for (const results::ProbeColumn& column : own_.history.columns) {
+      names_.push_back(column.name);
+      units_.push_back(column.unit);
+    }
+  }
 
   ErrorTable estimate() {
-    ErrorCauses found = find_error_causes(own_.scene, own_.built, own_.record);
+    ErrorCauses found = find_error_causes(own_);
     const std::size_t count = found.causes.size();
     std::vector<Made> all;
-    for (const ErrorCause& cause : found.causes) all.push_back(make(cause));
-    if (count > 1) {
-      all.push_back(make({"all", "", join_overrides(found.causes), 1.0}));
+    {
+      const auto lock = lock_libraries();
+      for (const ErrorCause& cause : found.causes) all.push_back(make(cause));
+      if (count > 1) {
+        all.push_back(make({"all", "", join_overrides(found.causes), 1.0}));
+      }
     }
-    done_.assign(all.size(), 0.0);
-    run_all(all.size(), [&](std::size_t i) { simulate(i, all[i]); });
+    run_all(all);
     std::optional<ErrorRun> together;
     if (count > 1) together = std::move(all.back().run);
     std::vector<ErrorRun> runs;
     for (std::size_t i = 0; i < count; ++i) {
       runs.push_back(std::move(all[i].run));
     }
-    return finish(std::move(runs), together, std::move(found.unknown));
+    ErrorTable table = compare_causes(
+        names_, units_, take_columns(own_, names_), std::move(runs), together);
+    table.unknown.insert(table.unknown.end(), found.unknown.begin(),
+                         found.unknown.end());
+    return table;
   }
 
  private:
   /// Reduces its bodies, one scene after the other.
   Made make(const ErrorCause& cause) {
     Made made{{cause.name, cause.finer, cause.factor, 0.0, "", {}}, {}, {}};
-    try {
+    made.run.failure = try_to([&] {
       made.scene = scene::load_scene(
           own_.scene.scenario.file,
           scene::merge(own_.scene.overrides, cause.overrides));
@@ -98,65 +115,91 @@ class Estimator {
           own_.scene.scenario.settings.output_times;
       made.built = scene::build_system(made.scene, make_reducer(progress_),
                                        cache_, make_full_maker(progress_));
-    } catch (const InputError& error) {
-      made.run.failure = error.problems().front();
-    } catch (const NumericalError& error) {
-      made.run.failure = error.what();
-    }
+    });
     return made;
+  }
+
+  /// In threads, while this one shows the progress and may end them.
+  void run_all(std::vector<Made>& all) {
+    done_.assign(all.size(), 0.0);
+    std::atomic<std::size_t> next = 0;
+    std::atomic<std::size_t> ended = 0;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < all.size(); i = next++) {
+        try {
+          simulate(i, all[i]);
+        } catch (const dynamics::Interrupted&) {
+          break;
+        }
+        ++ended;
+      }
+    };
+    std::vector<std::thread> pool;
+    const std::size_t threads = std::min<std::size_t>(
+        all.size(), std::max(1U, std::thread::hardware_concurrency()));
+    for (std::size_t i = 0; i < threads; ++i) pool.emplace_back(work);
+    const auto join = [&] {
+      for (std::thread& thread : pool) thread.join();
+    };
+    try {
+      constexpr auto kRefresh = std::chrono::milliseconds(50);
+      while (ended < all.size()) {
+        std::this_thread::sleep_for(kRefresh);
+        show();
+      }
+    } catch (...) {
+      stops_ = true;
+      join();
+      throw;
+    }
+    join();
   }
 
   void simulate(std::size_t index, Made& made) {
     if (!made.built) return;
-    const Run run = simulate_built(made.scene, std::move(*made.built), cache_,
-                                   [&](std::string_view what, double fraction) {
-                                     if (what == "simulating")
-                                       note(index, fraction);
-                                   });
-    made.run.seconds = run.statistics.seconds;
-    if (run.failure) {
-      try {
-        std::rethrow_exception(run.failure);
-      } catch (const NumericalError& error) {
-        made.run.failure = error.what();
+    made.run.failure = try_to([&] {
+      const Run run =
+          simulate_built(made.scene, std::move(*made.built), cache_,
+                         [&](std::string_view what, double fraction) {
+                           if (stops_)
+                             throw dynamics::Interrupted("interrupted");
+                           if (what == "simulating") note(index, fraction);
+                         });
+      made.run.seconds = run.statistics.seconds;
+      if (run.failure) std::rethrow_exception(run.failure);
+      if (run.history.times.size() != own_.history.times.size()) {
+        throw InputError("it has other outputs");
       }
-      return;
-    }
-    if (run.history.columns.size() != own_.history.columns.size() ||
-        run.history.times.size() != own_.history.times.size()) {
-      made.run.failure = "it has other probes or outputs";
-      return;
-    }
-    made.run.columns = take_columns(run);
+      if (made.run.name == "step" &&
+          run.statistics.steps <= own_.statistics.steps) {
+        throw InputError("it takes no more steps");
+      }
+      made.run.columns = take_columns(run, names_);
+      if (made.run.columns.empty()) throw InputError("it has other probes");
+    });
   }
 
   void note(std::size_t index, double fraction) {
     const std::lock_guard lock(mutex_);
     done_[index] = fraction;
-    double sum = 0.0;
-    for (const double one : done_) sum += one;
-    report(progress_, fmt::format("{} runs for errors", done_.size()),
-           sum / static_cast<double>(done_.size()));
   }
 
-  ErrorTable finish(std::vector<ErrorRun> runs,
-                    const std::optional<ErrorRun>& together,
-                    std::vector<std::string> unknown) {
-    std::vector<std::string> names;
-    std::vector<std::string> units;
-    for (const results::ProbeColumn& column : own_.history.columns) {
-      names.push_back(column.name);
-      units.push_back(column.unit);
+  void show() {
+    double sum = 0.0;
+    {
+      const std::lock_guard lock(mutex_);
+      for (const double one : done_) sum += one;
     }
-    ErrorTable table = compare_causes(names, units, take_columns(own_),
-                                      std::move(runs), together);
-    table.unknown = std::move(unknown);
-    return table;
+    report(progress_, fmt::format("{} runs for errors", done_.size()),
+           sum / static_cast<double>(done_.size()));
   }
 
   const Run& own_;
   const std::filesystem::path& cache_;
   const Progress& progress_;
+  std::vector<std::string> names_;
+  std::vector<std::string> units_;
+  std::atomic<bool> stops_ = false;
   std::mutex mutex_;  // of the next
   std::vector<double> done_;
 };

@@ -15,8 +15,10 @@ ColumnError find_difference(const ColumnValues& fine, const ColumnValues& own,
   ColumnError error;
   error.peak = factor * std::abs(std::abs(fine.peak) - std::abs(own.peak));
   for (std::size_t i = 0; i < own.curve.size(); ++i) {
-    error.curve =
-        std::max(error.curve, factor * std::abs(fine.curve[i] - own.curve[i]));
+    if (std::isnan(fine.curve[i]) && std::isnan(own.curve[i])) continue;
+    const double d = factor * std::abs(fine.curve[i] - own.curve[i]);
+    if (!(d <= error.curve)) error.curve = d;  // also NaN, which stays
+    if (std::isnan(d)) break;
   }
   return error;
 }
@@ -72,7 +74,7 @@ ErrorTable compare_causes(const std::vector<std::string>& names,
   ErrorTable table;
   const ErrorRun* all = together && is_known(*together) ? &*together : nullptr;
   for (std::size_t c = 0; c < names.size(); ++c) {
-    ProbeErrors probe{names[c], units[c], own[c].peak, {}, {}, true, {}};
+    ProbeErrors probe{names[c], units[c], own[c].peak, {}, {}, {}, {}};
     for (const ErrorRun& run : runs) {
       probe.by_cause.push_back(
           is_known(run) ? find_difference(run.columns[c], own[c], run.factor)
@@ -81,6 +83,9 @@ ErrorTable compare_causes(const std::vector<std::string>& names,
     add_total(own[c], all, c, probe);
     probe.remedy = find_remedy(probe, runs);
     table.probes.push_back(std::move(probe));
+  }
+  if (together && !is_known(*together)) {
+    table.unknown.push_back("whether causes add up: " + together->failure);
   }
   for (ErrorRun& run : runs) run.columns.clear();
   table.runs = std::move(runs);
@@ -108,7 +113,7 @@ Json to_json(const ErrorTable& table) {
         Json{{"unit", probe.unit},
              {"total", to_json(probe.total)},
              {"by_cause", by_cause},
-             {"adds_up", probe.adds_up},
+             {"adds_up", probe.adds_up ? Json(*probe.adds_up) : Json(nullptr)},
              {"remedy", probe.remedy ? Json(table.runs[*probe.remedy].name)
                                      : Json(nullptr)}};
   }
@@ -136,7 +141,7 @@ std::string to_text(const ErrorTable& table) {
     text += fmt::format(
         "  {} {}\n",
         probe.remedy ? table.runs[*probe.remedy].name : "no single cause",
-        probe.adds_up ? "" : "(causes do not add up)");
+        probe.adds_up == false ? "(causes do not add up)" : "");
   }
   for (const ErrorRun& run : table.runs) text += describe_run(run);
   for (const std::string& why : table.unknown) {

@@ -38,8 +38,8 @@ struct ProbeErrors {
   std::vector<ColumnError> by_cause;  ///< in the order of the runs
   ColumnError total;  ///< sum of the causes, or what all together show
   /// False where all causes together show more than twice their sum, as where
-  /// bounces are chaotic.
-  bool adds_up = true;
+  /// bounces are chaotic; none where there is no such run.
+  std::optional<bool> adds_up;
   /// Index of the cheapest run whose cause alone has half of the total.
   std::optional<std::size_t> remedy;
 };
@@ -47,7 +47,7 @@ struct ProbeErrors {
 struct ErrorTable {
   std::vector<ErrorRun> runs;  ///< without their columns
   std::vector<ProbeErrors> probes;
-  std::vector<std::string> unknown;  ///< causes without a run, and why
+  std::vector<std::string> unknown;  ///< what has no run, and why
 };
 
 /// @param own columns of the run; @param together the run with all causes at

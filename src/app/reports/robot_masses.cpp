@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "limber/app/options/reducer.hpp"
+#include "limber/common/errors.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/model/unlikely_values.hpp"
 #include "limber/scene/build/link_motion.hpp"
-#include "limber/scene/text/error_context.hpp"
 
 namespace limber::app {
 namespace {
@@ -48,8 +48,12 @@ std::optional<LinkMass> find_mass(const scene::Link& link,
                ? measure_mesh(*link.flexible, progress)
                : read_saved(*link.flexible);
   };
-  LinkMass found =
-      scene::with_context(fmt::format("link '{}'", link.name), find);
+  LinkMass found;
+  try {
+    found = find();
+  } catch (const InputError& error) {  // the rest is worth telling
+    found.warnings = error.problems();
+  }
   for (std::string& text : found.warnings) {
     text = fmt::format("link '{}': {}", link.name, text);
   }

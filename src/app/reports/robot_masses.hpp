@@ -26,7 +26,7 @@ struct RobotMasses {
   Vector3 center = Vector3::Zero();  ///< [m]
 };
 
-/// @throws InputError for a mesh or body that cannot be read.
+/// A mesh or body that cannot be read is a warning, and has no mass.
 [[nodiscard]] RobotMasses find_masses(const scene::Robot& robot,
                                       const Progress& progress);
 

@@ -22,7 +22,7 @@ struct ChildTask {
   /// space.
   bool is_address_space_limited = true;
   /// Called with the end of its output whenever there is more. May be empty.
-  std::function<void(std::string_view output)> on_output;
+  std::function<void(std::string_view output)> on_output = {};
 };
 
 /// How a child ended.

@@ -5,9 +5,11 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "limber/common/errors.hpp"
@@ -47,19 +49,23 @@ Places find_places() {
   return places;
 }
 
+/// Of the corners of its triangles, of first to third order.
 Measures measure(int surface, const Places& places) {
-  constexpr int kTriangle = 2;
-  std::vector<std::size_t> elements;
-  std::vector<std::size_t> nodes;
-  gmsh::model::mesh::getElementsByType(kTriangle, elements, nodes, surface);
+  constexpr std::array<std::pair<int, std::size_t>, 3> kTriangles = {
+      {{2, 3}, {9, 6}, {21, 10}}};  // Gmsh's type, nodes
   Measures sum;
-  for (std::size_t i = 0; i + 2 < nodes.size(); i += 3) {
-    const Vector3& a = places.at(nodes[i]);
-    const Vector3& b = places.at(nodes[i + 1]);
-    const Vector3& c = places.at(nodes[i + 2]);
-    sum.areas += (b - a).cross(c - a).norm();
-    sum.volumes += a.dot(b.cross(c));
-    sum.count += 1.0;
+  for (const auto& [type, each] : kTriangles) {
+    std::vector<std::size_t> elements;
+    std::vector<std::size_t> nodes;
+    gmsh::model::mesh::getElementsByType(type, elements, nodes, surface);
+    for (std::size_t i = 0; i + each <= nodes.size(); i += each) {
+      const Vector3& a = places.at(nodes[i]);
+      const Vector3& b = places.at(nodes[i + 1]);
+      const Vector3& c = places.at(nodes[i + 2]);
+      sum.areas += (b - a).cross(c - a).norm();
+      sum.volumes += a.dot(b.cross(c));
+      sum.count += 1.0;
+    }
   }
   return sum;
 }

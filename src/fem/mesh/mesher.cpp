@@ -101,7 +101,7 @@ std::optional<double> find_expected(std::string_view output) {
 void report_count(std::string_view output, const Progress& progress) {
   const std::optional<double> count = find_expected(output);
   if (!count) return;
-  report(progress, fmt::format("meshing, about {:.2g} elements", *count), 0.0);
+  report(progress, fmt::format("meshing some {:.2g} elements", *count), 0.0);
 }
 
 /// What a mesh of its size needs, and which size has a tenth of it.

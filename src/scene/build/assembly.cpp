@@ -205,8 +205,10 @@ void Assembly::check_moment(const LoadSpec& load,
 void Assembly::question_distance(const LoadSpec& load, const BodyPlan& plan,
                                  const Vector3& p_B) {
   constexpr double kFar = 10.0;
+  constexpr double kLeast = 1.0;  // [m]
   const double radius = std::sqrt(0.5 * plan.inertia.trace() / plan.mass);
-  if (!load.where.point || !(p_B.norm() > kFar * radius)) return;
+  const double far = std::max(kLeast, kFar * radius);
+  if (!load.where.point || !(p_B.norm() > far)) return;
   warnings_.push_back(fmt::format(
       "load '{}' acts {:.3g} m from the centre of mass of link '{}', whose "
       "radius of gyration is {:.3g} m; is its point in metres, in the link's "

@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+#include <optional>
+
 namespace limber::test::error_table_test {
 namespace {
 
@@ -11,7 +15,6 @@ using app::compare_causes;
 using app::ErrorRun;
 using app::ErrorTable;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 const std::vector<std::string> kNames = {"tip.ux"};
 const std::vector<std::string> kUnits = {"m"};
@@ -34,7 +37,7 @@ TEST(ErrorTable, HasTheDifferencesOfEachCauseTimesItsFactor) {
   EXPECT_NEAR(probe.by_cause[1].curve, 0.1, 1e-15);
   EXPECT_EQ(probe.by_cause[1].peak, 0.0);
   EXPECT_NEAR(probe.total.curve, 0.5, 1e-15);
-  EXPECT_TRUE(probe.adds_up);
+  EXPECT_EQ(probe.adds_up, std::nullopt);
 }
 
 TEST(ErrorTable, NamesTheCheapestCauseThatHasHalfOfTheTotal) {
@@ -60,9 +63,9 @@ TEST(ErrorTable, TellsWhereCausesDoNotAddUp) {
                           make_run("all", 1.0, 1.0, {{all, 1.0, -2.0}, -2.5}))
         .probes.at(0);
   };
-  EXPECT_TRUE(compare(0.15).adds_up);
+  EXPECT_EQ(compare(0.15).adds_up, true);
   EXPECT_NEAR(compare(0.15).total.curve, 0.15, 1e-15);
-  EXPECT_FALSE(compare(0.5).adds_up);
+  EXPECT_EQ(compare(0.5).adds_up, false);
   EXPECT_NEAR(compare(0.5).total.curve, 0.5, 1e-15);
 }
 
@@ -78,6 +81,20 @@ TEST(ErrorTable, TellsWhatCouldNotBeRun) {
   EXPECT_TRUE(
       to_json(table)["probes"]["tip.ux"]["by_cause"]["level"].is_null());
   EXPECT_EQ(table.probes.at(0).remedy, 1U);
+}
+
+TEST(ErrorTable, HasNoErrorWhereOneOfTwoValuesIsNone) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto find_error = [&](double own, double fine) {
+    return compare_causes(kNames, kUnits, {{{own, 1.0}, 1.0}},
+                          {make_run("step", 1.0, 1.0, {{fine, 1.5}, 1.0})},
+                          std::nullopt)
+        .probes.at(0)
+        .total.curve;
+  };
+  EXPECT_TRUE(std::isnan(find_error(none, 1.0)));
+  EXPECT_TRUE(std::isnan(find_error(1.0, none)));
+  EXPECT_EQ(find_error(none, none), 0.5);  // as a place while apart
 }
 
 }  // namespace
