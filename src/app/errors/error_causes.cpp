@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "limber/scene/build/load_scene.hpp"
+
 namespace limber::app {
 namespace {
 
@@ -243,17 +245,15 @@ class Finder {
 
 ErrorCauses find_error_causes(const Run& run) { return Finder(run).find(); }
 
-scene::Overrides join_overrides(const std::vector<ErrorCause>& causes) {
-  scene::Overrides joined;
+std::optional<ErrorCause> join_causes(const std::vector<ErrorCause>& causes) {
+  ErrorCause all{"all", "all but the level", {}, 1.0};
+  int count = 0;
   for (const ErrorCause& cause : causes) {
-    const scene::Overrides& one = cause.overrides;
-    joined.settings.insert(joined.settings.end(), one.settings.begin(),
-                           one.settings.end());
-    if (one.fidelity) joined.fidelity = one.fidelity;
-    if (one.step) joined.step = one.step;
-    if (one.basis != scene::BasisChoice{}) joined.basis = one.basis;
+    if (cause.name == "level") continue;
+    all.overrides = scene::merge(all.overrides, cause.overrides);
+    ++count;
   }
-  return joined;
+  return count > 1 ? std::optional(all) : std::nullopt;
 }
 
 }  // namespace limber::app

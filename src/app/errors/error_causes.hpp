@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct ErrorCauses {
 /// difference itself counts, of modes half as much again for those after them.
 [[nodiscard]] ErrorCauses find_error_causes(const Run& run);
 
-/// All of them in one run.
-[[nodiscard]] scene::Overrides join_overrides(
+/// All of them in one run, but the level, whose cost the others multiply; none
+/// if there are fewer than two.
+[[nodiscard]] std::optional<ErrorCause> join_causes(
     const std::vector<ErrorCause>& causes);
 
 }  // namespace limber::app

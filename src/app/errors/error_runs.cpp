@@ -85,13 +85,13 @@ class Estimator {
     {
       const auto lock = lock_libraries();
       for (const ErrorCause& cause : found.causes) all.push_back(make(cause));
-      if (count > 1) {
-        all.push_back(make({"all", "", join_overrides(found.causes), 1.0}));
+      if (const auto joined = join_causes(found.causes)) {
+        all.push_back(make(*joined));
       }
     }
     run_all(all);
     std::optional<ErrorRun> together;
-    if (count > 1) together = std::move(all.back().run);
+    if (all.size() > count) together = std::move(all.back().run);
     std::vector<ErrorRun> runs;
     for (std::size_t i = 0; i < count; ++i) {
       runs.push_back(std::move(all[i].run));
