@@ -79,7 +79,7 @@ TEST(Errors, OfTheStepAreThoseOfTheClosedForm) {
   const Workspace place;
   place.write("robot.urdf", kSled);
   place.write("s.toml", kScenario);
-  for (const std::string& step : {"0.1", "0.05", "0.025"}) {
+  for (const std::string step : {"0.1", "0.05", "0.025"}) {
     const json errors = run_with_errors(
         place, "s.toml --errors --out o --set time.step=" + step);
     const double stated =
