@@ -36,6 +36,15 @@ bool is_held(const SystemModel& model, BodyIndex body) {
       });
 }
 
+/// Whether contacts have the same memory: those of unreduced bodies touch by
+/// other laws than those of reduced ones.
+bool has_same_memory(const SystemModel& a, const SystemModel& b) {
+  return std::equal(a.pairs.begin(), a.pairs.end(), b.pairs.begin(),
+                    b.pairs.end(), [](const Pair& one, const Pair& other) {
+                      return one.law->memory_size() == other.law->memory_size();
+                    });
+}
+
 void include_largest(Peak& largest, double value, double t) {
   if (value > largest.value) largest = {value, t};
 }
@@ -100,6 +109,9 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
   state_.t = state.t;
   state_.bodies = state.bodies;
   copy_step_constants(state, state_);
+  if (!has_same_memory(source, model_)) {  // then without their friction
+    state_.pair_memory = PairMemory(model_.pair_memory_size);
+  }
   for (Watch& watch : watches_) {
     const BodyModel& from = source.bodies[index(watch.body)];
     const BodyModel& to = model_.bodies[index(watch.body)];

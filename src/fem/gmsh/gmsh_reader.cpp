@@ -64,8 +64,7 @@ void mesh_geometry(const std::filesystem::path& file,
   if (options.order > 0)
     gmsh::option::setNumber("Mesh.ElementOrder", options.order);
   if (has_solids()) return;
-  gmsh::model::mesh::generate(2);
-  if (note) note(estimate_element_count());
+  if (note) note(estimate_element_count(options.size));
   gmsh::model::mesh::generate(3);
 }
 

@@ -101,7 +101,7 @@ std::optional<double> find_expected(std::string_view output) {
 void report_count(std::string_view output, const Progress& progress) {
   const std::optional<double> count = find_expected(output);
   if (!count) return;
-  report(progress, fmt::format("meshing some {:.2g} elements", *count), 0.0);
+  report(progress, fmt::format("meshing up to {:.2g} elements", *count), 0.0);
 }
 
 /// What a mesh of its size needs, and which size has a tenth of it.
@@ -109,7 +109,7 @@ std::string describe_count(const ChildEnd& end, const MeshOptions& options) {
   const std::optional<double> count = find_expected(end.output);
   if (!count) return "";
   std::string text =
-      fmt::format(" About {:.2g} elements were expected", *count);
+      fmt::format(" Up to {:.2g} elements were expected", *count);
   if (options.size > 0.0) {
     text += fmt::format("; a size of {:.2g} in place of {:g} has a tenth",
                         options.size * std::cbrt(10.0), options.size);

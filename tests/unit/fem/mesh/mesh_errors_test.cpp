@@ -279,7 +279,7 @@ TEST(MeshErrors, ValuesOutOfRange) {
   for (const double size : {-0.1, nan, infinity})
     EXPECT_THAT(reading_error(file, {.size = size}),
                 AllOf(HasSubstr("mesh size"), HasSubstr("expected")));
-  for (const double unit : {0.0, -1.0, nan, infinity})
+  for (const double unit : {-1.0, nan, infinity})
     EXPECT_THAT(reading_error(file, {.unit = unit}),
                 AllOf(HasSubstr("length unit"), HasSubstr("expected")));
   for (const int order : {-1, 4})

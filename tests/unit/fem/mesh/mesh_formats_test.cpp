@@ -76,8 +76,8 @@ class GeometryFormat : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(GeometryFormat, IsMeshedWithTheBoxsVolume) {
   const auto file = write_box(std::string("box") + GetParam(), false);
-  // STEP says millimetres, and Gmsh keeps the numbers.
-  const Mesh mesh = read_mesh(file, {.size = 0.1});
+  // Of a file that says millimetres, too.
+  const Mesh mesh = read_mesh(file, {.size = 0.1, .unit = 1.0});
   EXPECT_NEAR(volume_of(mesh), 0.3 * 0.2 * 0.1, 1e-9);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, GeometryFormat,

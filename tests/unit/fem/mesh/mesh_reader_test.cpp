@@ -71,8 +71,8 @@ std::filesystem::path write_step(const std::string& name, const Vector3& size) {
 
 TEST(MeshReader, MeshesAStepFile) {
   for (const char* name : {"box.step", "box.stp"}) {
-    const Mesh mesh =
-        read_mesh(write_step(name, kBoxSize), {.size = 0.06, .order = 2});
+    const Mesh mesh = read_mesh(write_step(name, 1000.0 * kBoxSize),
+                                {.size = 60.0, .order = 2});  // millimetres
     EXPECT_GT(mesh.element_count(), 50U);
     EXPECT_NEAR(mass_of(mesh) / (kSteel.density * kBoxSize.prod()), 1.0,
                 kRoundoff);
