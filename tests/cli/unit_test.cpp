@@ -105,7 +105,8 @@ void write_arm(const Workspace& place, const std::string& modulus,
           "<flexible link='arm'><mesh file='{}'/>"
           "<material youngs_modulus='{}' poisson_ratio='0' density='8000'/>"
           "<basis eigenmodes='1'/><attach joint='elbow' interface='root'/>"
-          "<interface name='root' nearest='0 0 0'/></flexible></robot>\n",
+          "<interface name='root' plane_point='0 0 0' plane_normal='0 0 "
+          "1'/></flexible></robot>\n",
           LIMBER_SOURCE_DIR "/meshes/beam579.msh", modulus));
   place.write("arm.toml",
               "robot = \"arm.urdf\"\n[time]\nduration = 0.002\n"
@@ -117,7 +118,7 @@ TEST(Questions, AreAskedAboutValuesOfAnotherUnit) {
   const Workspace place;
   write_arm(place, "200e3",
             "[gravity]\nacceleration = [0, 0, -9810]\n"
-            "[initial.joints]\nelbow = 90\n");
+            "[initial.joints]\nelbow = { position = 90 }\n");
   const CommandResult result = place.limber("run arm.toml");
   EXPECT_THAT(result.errors, HasSubstr("is it in Pa (steel: 2.1e11)?"));
   EXPECT_THAT(result.errors, HasSubstr("starts at 90 rad, 14.3 turns"));
@@ -128,7 +129,7 @@ TEST(Questions, AreNotAskedOtherwise) {
   const Workspace place;
   write_arm(place, "200e9",
             "[gravity]\nacceleration = [0, 0, -9.81]\n"
-            "[initial.joints]\nelbow = 1.5\n");
+            "[initial.joints]\nelbow = { position = 1.5 }\n");
   const CommandResult result = place.limber("run arm.toml");
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_THAT(result.errors, Not(HasSubstr("?")));

@@ -21,24 +21,6 @@ Vector3 find_extent() {
   return high - low;
 }
 
-/// Of all volumes; that of the box about the part where its kernel does not
-/// know.
-double find_volume() {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  double sum = 0.0;
-  try {
-    for (const auto& [dimension, tag] : volumes) {
-      double one = 0.0;
-      gmsh::model::occ::getMass(dimension, tag, one);
-      sum += one;
-    }
-  } catch (...) {  // Gmsh throws ints and strings, by version
-    sum = 0.0;
-  }
-  return sum > 0.0 ? sum : find_extent().prod();
-}
-
 }  // namespace
 
 void check_element_size(const std::filesystem::path& file, double size) {
@@ -56,7 +38,8 @@ void check_element_size(const std::filesystem::path& file, double size) {
 
 double estimate_element_count(double size) {
   if (size <= 0.0) return 0.0;
-  return find_volume() * 6.0 * std::numbers::sqrt2 / (size * size * size);
+  return find_extent().prod() * 6.0 * std::numbers::sqrt2 /
+         (size * size * size);
 }
 
 }  // namespace limber::fem

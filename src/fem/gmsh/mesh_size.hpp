@@ -11,9 +11,9 @@ namespace limber::fem {
 /// would have some 1e9 elements. The message has a size that is possible.
 void check_element_size(const std::filesystem::path& file, double size);
 
-/// At most about so many elements of this size: the part's volume, or where
-/// Gmsh does not know it that of the box about it, over that of a regular
-/// tetrahedron (1 / (6 sqrt 2) of the cube of its edge); 0 for a size of 0.
+/// At most about so many elements of this size: the volume of the box about the
+/// part over that of a regular tetrahedron (1 / (6 sqrt 2) of the cube of its
+/// edge); 0 for a size of 0.
 [[nodiscard]] double estimate_element_count(double size);
 
 }  // namespace limber::fem
