@@ -230,9 +230,9 @@ TEST(Results, ThatCannotBeWrittenAreSavedElsewhere) {
   ASSERT_EQ(saved.size(), 1U);
   EXPECT_THAT(result.errors,
               AllOf(HasSubstr("results.h5"), HasSubstr(saved[0])));
-  EXPECT_THAT(
-      list_files(place.folder() / "tmp" / saved[0]),
-      ::testing::ElementsAre("probes.csv", "results.h5", "summary.json"));
+  EXPECT_THAT(list_files(place.folder() / "tmp" / saved[0]),
+              ::testing::ElementsAre("envelopes.csv", "peaks.csv", "probes.csv",
+                                     "results.h5", "summary.json"));
   const auto mode = fs::status(place.folder() / "tmp" / saved[0]).permissions();
   EXPECT_EQ(mode, fs::perms::owner_all);
 }
@@ -285,8 +285,9 @@ TEST(Results, AreTheirsToReadBeforePicturesAreDrawn) {
     EXPECT_FALSE(read_text(place.folder() / "output").empty());
     EXPECT_EQ(read_text(place.folder() / "seen"),
               read_text(place.folder() / "output"));
-    EXPECT_EQ(read_text(place.folder() / "files"),
-              "probes.csv\nresults.h5\nsummary.json\n");
+    EXPECT_EQ(
+        read_text(place.folder() / "files"),
+        "envelopes.csv\npeaks.csv\nprobes.csv\nresults.h5\nsummary.json\n");
     fs::remove_all(place.folder() / "o");
   }
 }
@@ -311,8 +312,9 @@ TEST(Results, OfAnEarlierRunGoAndFilesOfTheUserStay) {
   ASSERT_EQ(place.limber("run s.toml --out o").status, 0);  // no pictures
   EXPECT_THAT(
       list_files(place.folder() / "o"),
-      ::testing::ElementsAre(".limber-files", "notes.txt", "probe_mine.png",
-                             "probes.csv", "results.h5", "summary.json"));
+      ::testing::ElementsAre(".limber-files", "envelopes.csv", "notes.txt",
+                             "peaks.csv", "probe_mine.png", "probes.csv",
+                             "results.h5", "summary.json"));
 }
 
 TEST(Results, OfRunsThatAnEarlierCompareKeptGo) {
