@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/command.hpp"
+#include "cli/sled_study.hpp"
 #include "places.hpp"
 
 namespace limber::test::errors_test {
@@ -18,16 +19,7 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const char* const kSled = R"(<robot name='r'><link name='world'/>
-<link name='sled'><inertial><mass value='3'/><inertia ixx='0.1' iyy='0.1'
-  izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>
-<joint name='rail' type='prismatic'><parent link='world'/><child link='sled'/>
-  <axis xyz='1 0 0'/><limit lower='-9' upper='9' effort='0' velocity='0'/>
-</joint>
-<spring name='coil' stiffness='10' free_length='1'>
-  <from link='world' point='-1 0 0'/><to link='sled'/></spring></robot>)";
-
-const char* const kScenario = R"(robot = 'robot.urdf'
+const char* const kPushed = R"(robot = 'robot.urdf'
 [time]
 duration = 3
 step = 0.05
@@ -77,8 +69,8 @@ double find_true_error(const Workspace& place) {
 
 TEST(Errors, OfTheStepAreThoseOfTheClosedForm) {
   const Workspace place;
-  place.write("robot.urdf", kSled);
-  place.write("s.toml", kScenario);
+  place.write("robot.urdf", kRobot);
+  place.write("s.toml", kPushed);
   for (const std::string step : {"0.1", "0.05", "0.025"}) {
     const json errors = run_with_errors(
         place, "s.toml --errors --out o --set time.step=" + step);
@@ -94,8 +86,8 @@ TEST(Errors, OfTheStepAreThoseOfTheClosedForm) {
 
 TEST(Errors, AreAskedForByTheScenarioToo) {
   const Workspace place;
-  place.write("robot.urdf", kSled);
-  place.write("s.toml", kScenario);
+  place.write("robot.urdf", kRobot);
+  place.write("s.toml", kPushed);
   const json asked = run_with_errors(place, "s.toml --errors --out o");
   const json set =
       run_with_errors(place, "s.toml --out o --set output.errors=true");

@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "cli/impact_run.hpp"
+#include "cli/skin_link.hpp"
 
 namespace limber::test::skin_contact_test {
 namespace {
@@ -32,52 +33,10 @@ Mesh.ElementOrder = 2;
                      length, 0.5 * width, 0.5 * height, cells);
 }
 
-std::string make_link(const std::string& mesh, double modulus, double density,
-                      int modes) {
-  return fmt::format(R"(<robot name="b"><link name="b"/>
-<flexible link="b"><mesh file="{}"/>
-<material youngs_modulus="{}" poisson_ratio="0.3" density="{}"/>
-<basis eigenmodes="{}"/></flexible>
-<contact link="b" surface="skin"/></robot>)",
-                     mesh, modulus, density, modes);
-}
-
 TEST(SkinOfARod, StrikesOnceAsTheWaveSolutionSays) {
   const Workspace place;
   place.write("rod.geo", make_bar(1.0, 0.01, 0.01, 60));
-  place.write("rod.urdf", make_link("rod.geo", 210e9, 7850.0, 60));
-  place.write("scene.toml", R"(
-[[robot]]
-name = 'a'
-file = 'rod.urdf'
-velocity = [1, 0, 0]
-[[obstacle]]
-name = 'w'
-shape = 'plane'
-position = [1.00001, 0, 0]
-normal = [-1, 0, 0]
-[[contact]]
-between = ['a.b', 'w']
-[time]
-duration = 1e-3
-step = 1e-6
-output_interval = 1e-5
-[output]
-pictures = false
-)");
-  const json run = run_for_summary(place, "scene.toml");
-  ASSERT_EQ(run["contacts"].size(), 1U);
-  const json& impact = run["contacts"][0];
-  const double waves = std::sqrt(210e9 / 7850.0);  // [m/s]
-  const double force = 210e9 * 1e-4 / waves;
-  const double duration = 2.0 / waves;
-  EXPECT_EQ(impact["touches"], 1);
-  EXPECT_GE(impact["duration"].get<double>() / duration, 1.0);
-  EXPECT_LE(impact["duration"].get<double>() / duration, 1.07);  // five modes
-  EXPECT_NEAR(impact["impulse"].get<double>() / (force * duration), 1.0, 0.002);
-  EXPECT_GE(impact["restitution"].get<double>(), 0.998);
-  EXPECT_GE(impact["peak_force"].get<double>() / force, 1.0);
-  EXPECT_LE(impact["peak_force"].get<double>() / force, 1.1);
+  expect_wave_impact(place, 0.002, 0.998);
 }
 
 // Two bars of 200 x 20 x 8 mm, free, one across the other or along it, with
@@ -86,7 +45,7 @@ json strike_bars(double yaw, const std::string& first,
                  const std::string& second, const std::string& options) {
   const Workspace place;
   place.write("bar.geo", make_bar(0.2, 0.02, 0.008, 6));
-  place.write("bar.urdf", make_link("bar.geo", 3e9, 1500.0, 6));
+  place.write("bar.urdf", make_skin_link("bar.geo", 3e9, 1500.0, 6));
   place.write("scene.toml", fmt::format(R"(
 [time]
 duration = 0.003

@@ -35,23 +35,10 @@ std::string find_full_name(const CLI::App& command) {
                            : find_full_name(*parent) + " " + command.get_name();
 }
 
-std::vector<std::string> list_options(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      names.push_back("--" + name);
-    }
-  }
-  return names;
-}
-
-std::vector<std::string> list_subcommands(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::App* one : command.get_subcommands(
-           [](const CLI::App* sub) { return !sub->get_group().empty(); })) {
-    names.push_back(one->get_name());
-  }
-  return names;
+std::vector<std::string> list_words(const std::vector<Candidate>& candidates) {
+  std::vector<std::string> words;
+  for (const Candidate& one : candidates) words.push_back(one.word);
+  return words;
 }
 
 /// What is wrong with a command line: the first option or command in it that
@@ -65,9 +52,10 @@ std::string explain(const CLI::App& app, const CLI::App& command,
       });
   if (option != unknown.end()) {
     return describe_unknown("option", option->substr(0, option->find('=')),
-                            list_options(command));
+                            list_words(list_options(command, "")));
   }
-  const std::vector<std::string> commands = list_subcommands(command);
+  const std::vector<std::string> commands =
+      list_words(list_commands(command, ""));
   if (!unknown.empty() && !commands.empty()) {
     return describe_unknown("command", unknown.front(), commands);
   }

@@ -85,6 +85,8 @@ std::vector<Candidate> list_values(const CLI::Option& option,
   return all;
 }
 
+}  // namespace
+
 std::vector<Candidate> list_options(const CLI::App& command,
                                     const std::string& start) {
   std::vector<Candidate> all;
@@ -109,8 +111,6 @@ std::vector<Candidate> list_commands(const CLI::App& command,
   }
   return all;
 }
-
-}  // namespace
 
 std::vector<Candidate> complete(const CLI::App& app, const Words& given) {
   const Words words = join_equals(given);

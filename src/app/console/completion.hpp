@@ -16,6 +16,13 @@ struct Candidate {
   std::string what;  ///< its help, one line
 };
 
+/// Long options of a command that begin with `start`; hidden ones are left out.
+[[nodiscard]] std::vector<Candidate> list_options(const CLI::App& command,
+                                                  const std::string& start);
+/// The same of its subcommands.
+[[nodiscard]] std::vector<Candidate> list_commands(const CLI::App& command,
+                                                   const std::string& start);
+
 /// Completions of the last word of a command line: subcommands, options, or
 /// values of an option with a known list (levels, integrators, keys and names
 /// of a scenario that the line has). Empty where a file or any text is

@@ -9,6 +9,7 @@
 
 #include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/text/setting.hpp"
 #include "limber/scene/text/toml_file.hpp"
 
 namespace limber::app {
@@ -16,16 +17,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A part of a path; dots in it need quotes.
-std::string quote(const std::string& part) {
-  return part.find('.') == std::string::npos ? part : '"' + part + '"';
-}
-
 std::string find_entry_name(const toml::node& entry, std::size_t index) {
   const toml::table* table = entry.as_table();
   if (table != nullptr) {
     if (const auto name = (*table)["name"].value<std::string>()) {
-      return quote(*name);
+      return scene::quote_part(*name);
     }
   }
   return std::to_string(index);
@@ -34,7 +30,7 @@ std::string find_entry_name(const toml::node& entry, std::size_t index) {
 void add_keys(const toml::node& node, const std::string& path, Words& keys) {
   if (const toml::table* table = node.as_table()) {
     for (const auto& [key, child] : *table) {
-      const std::string part = quote(std::string(key.str()));
+      const std::string part = scene::quote_part(std::string(key.str()));
       add_keys(child, path.empty() ? part : path + "." + part, keys);
     }
     return;
@@ -68,7 +64,7 @@ Words list_elements(const std::filesystem::path& file) {
   const scene::Robot robot = scene::read_robot(scenario.robot);
   Words paths;
   const auto add = [&](const char* kind, const std::string& name) {
-    paths.push_back(fmt::format("robot.{}.{}.", kind, quote(name)));
+    paths.push_back(fmt::format("robot.{}.{}.", kind, scene::quote_part(name)));
   };
   for (const scene::Link& link : robot.links) {
     add("link", link.name);

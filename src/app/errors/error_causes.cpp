@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/text/setting.hpp"
 
 namespace limber::app {
 namespace {
@@ -20,20 +21,17 @@ using dynamics::Fidelity;
 
 constexpr double kSecondOrder = 4.0 / 3.0;
 
-std::string quote(const std::string& part) {
-  return part.find('.') == std::string::npos ? part : '"' + part + '"';
-}
-
 /// The path of a key of a flexible link in its robot's file. Links of several
 /// robots are called ROBOT.LINK.
 std::string find_path(const scene::Scenario& scenario, const std::string& link,
                       const std::string& key) {
   if (scenario.robots.empty()) {
-    return fmt::format("robot.flexible.{}.{}", quote(link), key);
+    return fmt::format("robot.flexible.{}.{}", scene::quote_part(link), key);
   }
   const std::size_t dot = link.find('.');
-  return fmt::format("robot.{}.flexible.{}.{}", quote(link.substr(0, dot)),
-                     quote(link.substr(dot + 1)), key);
+  return fmt::format("robot.{}.flexible.{}.{}",
+                     scene::quote_part(link.substr(0, dot)),
+                     scene::quote_part(link.substr(dot + 1)), key);
 }
 
 bool is_geometry(const std::filesystem::path& file) {
@@ -72,12 +70,7 @@ double find_step_taken(const Run& run) {
 
 class Finder {
  public:
-  explicit Finder(const Run& run)
-      : run_(run),
-        scene_(run.scene),
-        scenario_(run.scene.scenario),
-        built_(run.built),
-        record_(run.record) {}
+  explicit Finder(const Run& run) : run_(run), scenario_(run.scene.scenario) {}
 
   ErrorCauses find() {
     add_step();
@@ -102,7 +95,7 @@ class Finder {
   }
 
   void add_step() {
-    const dynamics::SimulationSettings& settings = built_.settings;
+    const dynamics::SimulationSettings& settings = run_.built.settings;
     if (settings.tolerance > 0.0) {
       constexpr double kFiner = 0.1;
       set("step", "a tenth of the tolerance", "time.tolerance",
@@ -124,11 +117,11 @@ class Finder {
 
   void add_modes() {
     int most = 0;
-    for (const dynamics::BodyModel& body : built_.model.bodies) {
+    for (const dynamics::BodyModel& body : run_.built.model.bodies) {
       if (body.reduced) most = std::max(most, body.reduced->mode_count());
     }
     bool has_any = false;
-    for (const scene::Link& link : scene_.robot.links) {
+    for (const scene::Link& link : run_.scene.robot.links) {
       if (!has_modes(link)) continue;
       if (link.flexible->reduced_file.empty()) {
         has_any = true;
@@ -168,7 +161,7 @@ class Finder {
 
   void add_level() {
     std::vector<Fidelity> levels;
-    for (const scene::Link& link : scene_.robot.links) {
+    for (const scene::Link& link : run_.scene.robot.links) {
       if (link.flexible) levels.push_back(scenario_.level_of(link.name));
     }
     if (levels.empty()) return;
@@ -192,7 +185,7 @@ class Finder {
   }
 
   [[nodiscard]] bool is_of_first_order(const scene::Link& link) const {
-    const auto& bodies = built_.model.bodies;
+    const auto& bodies = run_.built.model.bodies;
     return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
       return body.name == link.name && body.reduced && body.reduced->locking;
     });
@@ -203,7 +196,7 @@ class Finder {
     constexpr double kFiner = 1.5;
     constexpr double kMeshFactor = 1.0 / (1.0 - 1.0 / (kFiner * kFiner));
     scene::Overrides overrides;
-    for (const scene::Link& link : scene_.robot.links) {
+    for (const scene::Link& link : run_.scene.robot.links) {
       if (!bends(link) || !link.flexible->reduced_file.empty()) continue;
       const flexbody::MeshSource& mesh = link.flexible->mesh;
       const auto change = [&](const std::string& key, double value) {
@@ -228,16 +221,13 @@ class Finder {
   }
 
   void add_contact() {
-    if (record_.contacts.empty()) return;
+    if (run_.record.contacts.empty()) return;
     set("contact", "twice the steps of impacts", "time.impact_steps",
-        2.0 * built_.settings.impact_steps, kSecondOrder);
+        2.0 * run_.built.settings.impact_steps, kSecondOrder);
   }
 
   const Run& run_;
-  const scene::Scene& scene_;
   const scene::Scenario& scenario_;
-  const scene::BuiltScene& built_;
-  const dynamics::RunRecord& record_;
   ErrorCauses found_;
 };
 

@@ -10,6 +10,8 @@
 namespace limber::app {
 namespace {
 
+bool is_known(const ErrorRun& run) { return run.failure.empty(); }
+
 ColumnError find_difference(const ColumnValues& fine, const ColumnValues& own,
                             double factor) {
   ColumnError error;
@@ -55,14 +57,12 @@ Json to_json(const ColumnError& error) {
 }
 
 std::string describe_run(const ErrorRun& run) {
-  if (!run.failure.empty()) {
+  if (!is_known(run)) {
     return fmt::format("  {:<8} unknown: {}\n", run.name, run.failure);
   }
   return fmt::format("  {:<8} {}, {:.3g} s\n", run.name, run.finer,
                      run.seconds);
 }
-
-bool is_known(const ErrorRun& run) { return run.failure.empty(); }
 
 }  // namespace
 

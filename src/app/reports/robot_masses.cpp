@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "limber/app/options/reducer.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/file/cache.hpp"
 #include "limber/flexbody/model/unlikely_values.hpp"
 #include "limber/scene/build/link_motion.hpp"
 
@@ -23,12 +26,19 @@ LinkMass read_saved(const scene::FlexibleLink& link) {
           flexbody::question_body(body)};
 }
 
-LinkMass measure_mesh(const scene::FlexibleLink& link,
+/// By recipe, since links may share a mesh.
+using Parts = std::map<std::string, flexbody::PartMass>;
+
+LinkMass measure_mesh(const scene::FlexibleLink& link, Parts& parts,
                       const Progress& progress) {
   flexbody::Recipe recipe;
   recipe.mesh = link.mesh;
   recipe.materials = link.materials;
-  const flexbody::PartMass part = app::find_part_mass(recipe, progress);
+  const std::string key = flexbody::recipe_key(recipe);
+  if (!parts.contains(key)) {
+    parts[key] = app::find_part_mass(recipe, progress);
+  }
+  const flexbody::PartMass& part = parts[key];
   LinkMass mass{part.mass, link.X_LM * part.p_MoBcm_M, part.size, part.notices};
   for (const flexbody::MaterialRegion& region : link.materials) {
     append(flexbody::question_material(region), mass.warnings);
@@ -37,7 +47,7 @@ LinkMass measure_mesh(const scene::FlexibleLink& link,
   return mass;
 }
 
-std::optional<LinkMass> find_mass(const scene::Link& link,
+std::optional<LinkMass> find_mass(const scene::Link& link, Parts& parts,
                                   const Progress& progress) {
   if (!link.flexible) {
     if (!link.inertia) return std::nullopt;
@@ -45,7 +55,7 @@ std::optional<LinkMass> find_mass(const scene::Link& link,
   }
   const auto find = [&] {
     return link.flexible->reduced_file.empty()
-               ? measure_mesh(*link.flexible, progress)
+               ? measure_mesh(*link.flexible, parts, progress)
                : read_saved(*link.flexible);
   };
   LinkMass found;
@@ -65,9 +75,10 @@ std::optional<LinkMass> find_mass(const scene::Link& link,
 RobotMasses find_masses(const scene::Robot& robot, const Progress& progress) {
   const auto motions = scene::find_motions_at_zero(robot, {});
   RobotMasses all;
+  Parts parts;
   Vector3 moment = Vector3::Zero();
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    all.of_link.push_back(find_mass(robot.links[i], progress));
+    all.of_link.push_back(find_mass(robot.links[i], parts, progress));
     if (!all.of_link.back()) continue;
     const LinkMass& one = *all.of_link.back();
     all.total += one.mass;

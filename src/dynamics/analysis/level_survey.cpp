@@ -94,7 +94,8 @@ LevelSurvey::LevelSurvey(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
       state_(make_state(model)),
-      jumps_(find_jumps(model)) {
+      jumps_(find_jumps(model)),
+      no_memory_(model.pair_memory_size) {
   const std::vector<double> reaches = find_reaches(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!model.bodies[b].reduced) continue;
@@ -109,9 +110,8 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
   state_.t = state.t;
   state_.bodies = state.bodies;
   copy_step_constants(state, state_);
-  if (!has_same_memory(source, model_)) {  // then without their friction
-    state_.pair_memory = PairMemory(model_.pair_memory_size);
-  }
+  if (!shares_memory_) shares_memory_ = has_same_memory(source, model_);
+  if (!*shares_memory_) state_.pair_memory = no_memory_;  // no friction then
   for (Watch& watch : watches_) {
     const BodyModel& from = source.bodies[index(watch.body)];
     const BodyModel& to = model_.bodies[index(watch.body)];

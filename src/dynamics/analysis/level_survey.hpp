@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "limber/dynamics/analysis/axial_load.hpp"
@@ -155,6 +156,10 @@ class LevelSurvey {
   SystemState state_;
   std::vector<double> jumps_;  ///< times at which a load may jump [s]
   std::vector<Watch> watches_;
+  /// Whether contacts of the model have the memory of those of its source;
+  /// found at the first state.
+  std::optional<bool> shares_memory_;
+  PairMemory no_memory_;  ///< of the model's contacts, all zero
   long count_ = 0;
   long stride_ = 1;
 };

@@ -54,6 +54,10 @@ std::string take_part(const std::string& path, std::string_view& rest) {
 
 }  // namespace
 
+std::string quote_part(const std::string& part) {
+  return part.find('.') == std::string::npos ? part : '"' + part + '"';
+}
+
 Setting parse_setting(std::string_view text) {
   const std::size_t equals = find_equals(text);
   if (equals == std::string_view::npos) {

@@ -29,6 +29,9 @@ struct Setting {
 /// is not closed, or there are more than kMostKeyParts.
 [[nodiscard]] std::vector<std::string> split_path(const std::string& path);
 
+/// A part as it stands in a path: in quotes if it has dots.
+[[nodiscard]] std::string quote_part(const std::string& part);
+
 /// A part as an index; none if it is not a whole number.
 [[nodiscard]] std::optional<std::size_t> to_index(const std::string& part);
 
