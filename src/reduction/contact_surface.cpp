@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/slices/roll_off.hpp"
 #include "limber/reduction/slices/skin_division.hpp"
+#include "limber/reduction/slices/slice_flexibility.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
 
 namespace limber::flexbody {
@@ -210,27 +210,6 @@ BareSurface make_bare_surface(const fem::Mesh& mesh, const ContactGroup& group,
   return bare;
 }
 
-// 2 R_res as far as it exceeds the compliance 1 / (2 E' a) of the slice's own
-// half space, along each axis along which it presses; a of the larger side.
-Matrix3 find_excess(const SkinSlice& slice, const Matrix3& residual,
-                    const Matrix3& axes, const fem::ElasticMaterial& material) {
-  const double nu = material.poisson_ratio;
-  Vector3 excess = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const Vector3 axis = axes.col(k);
-    double ahead = 0.0;
-    double behind = 0.0;
-    for (const SurfaceSample* s : slice.samples) {
-      ahead += s->area * std::max(s->normal.dot(axis), 0.0);
-      behind += s->area * std::max(-s->normal.dot(axis), 0.0);
-    }
-    const double a = std::sqrt(std::max(ahead, behind) / std::numbers::pi);
-    const double own = (1.0 - nu * nu) / (2.0 * material.youngs_modulus * a);
-    excess[k] = std::max(2.0 * axis.dot(residual * axis) - own, 0.0);
-  }
-  return axes * excess.asDiagonal() * axes.transpose();
-}
-
 // Of each mode the share along the axis along which it moves the slice most,
 // of all modes' flexibility there.
 void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
@@ -283,7 +262,9 @@ std::vector<ContactSlice> make_contact_slices(
     const Eigen::Index at = 3 * static_cast<Eigen::Index>(i);
     const Matrix3 R = residual.block<3, 3>(at, at);
     slices[i].flexibility_B =
-        R + find_excess(division.slices[i], R, division.axes, material);
+        R + find_excess(division.slices[i], R, division.axes, material) +
+        find_own_flexibility(division.slices[i], division.axes, basis.lambda,
+                             Phi);
     roll_off_slice(basis.lambda, division.axes, slices[i]);
   }
   return slices;

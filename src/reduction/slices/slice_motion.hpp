@@ -11,14 +11,16 @@ namespace limber::flexbody {
 
 /// The rigid motion (u, theta) about a slice's centre that is nearest to the
 /// nodes' displacements, normal to its surface: what a slice has of an end
-/// face moves it along, its sides move it across.
+/// face moves it along, its sides move it across. In motions along which no
+/// face is pressed, such as along and about the axis of a round rod far from
+/// its ends, all of the surface moves it, and friction is spread over it.
 ///
-/// Equation   min sum a ((n . e)^2 + 1e-6 |e|^2), e = u(x) - u - theta x r, r
-///            from the centre; so (u, theta) = H^-1 sum_n B_n u_n. Forces f on
-///            the slice are loads u' f: B_n' H^-1 (f, 0) on the nodes, whose
+/// Equation   G B u + P W^-1 C u: H = sum a J n n' J', B u = sum a J n n' u(x),
+///            J = (1; r x); W and C the same with 1 for n n'; G the inverse of
+///            H among its eigenvectors, theta in units of 1 / sqrt(<r^2>),
+///            whose value is above 2e-3 of the largest, P onto the others. It
+///            is (u, theta) of every rigid motion, so forces f are loads whose
 ///            resultant is f at the centre
-/// Limits     what no face presses along, such as the axis of a bar far from
-///            its ends, moves with the mean of its surface
 class SliceMotion {
  public:
   /// @param samples at least one
@@ -33,7 +35,7 @@ class SliceMotion {
 
  private:
   Vector3 centre_ = Vector3::Zero();
-  std::map<int, Eigen::Matrix<double, 6, 3>> nodes_;  // H^-1 B_n
+  std::map<int, Eigen::Matrix<double, 6, 3>> nodes_;  // of (u, theta)
 };
 
 }  // namespace limber::flexbody
