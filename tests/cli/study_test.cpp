@@ -188,6 +188,42 @@ TEST_F(AStudy, ComparesLevelsAsAFactor) {
   EXPECT_THAT(table("a"), Not(HasSubstr("1,coupled,0,")));
 }
 
+// In two columns with only one output besides the start, the difference is
+// that of the final values.
+TEST_F(AStudy, MeasuresWhatALevelChangesBySingleRuns) {
+  const std::string settings =
+      " --set time.duration=0.02 --set time.output_interval=0.02";
+  place_.write("study.toml",
+               "scenario = '" LIMBER_SOURCE_DIR
+               "/examples/four_bar.toml'\nset = ['time.duration=0.02', "
+               "'time.output_interval=0.02']\n[design]\nkind = 'grid'\n"
+               "[[factor]]\nname = 'step'\npath = 'time.step'\n"
+               "values = [1e-3, 5e-4]\n"
+               "[[response]]\nname = 'own'\nprobe = 'crank.q'\n"
+               "measure = 'final'\n"
+               "[[response]]\nname = 'rigid'\nprobe = 'crank.q'\n"
+               "measure = 'final'\nlevel = 'rigid'\n"
+               "[[response]]\nname = 'off'\nprobe = 'crank.q'\n"
+               "measure = 'difference'\nlevel = 'rigid'\n"
+               "[[response]]\nname = 'none'\nprobe = 'crank.q'\n"
+               "measure = 'difference'\nlevel = 'coupled'\n");
+  (void)run("study.toml --out a --csv");
+  const auto find_final = [&](const std::string& more) {
+    const CommandResult result =
+        place_.limber("run " LIMBER_SOURCE_DIR
+                      "/examples/four_bar.toml --json --out r --set "
+                      "time.step=5e-4" +
+                      settings + more);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out)["probes"]["crank.q"]["final"].get<double>();
+  };
+  const double own = find_final(" --fidelity coupled");
+  const double rigid = find_final(" --fidelity rigid");
+  EXPECT_NE(own, rigid);
+  EXPECT_THAT(table("a"), HasSubstr(fmt::format("1,0.0005,{},{},{},0,", own,
+                                                rigid, std::abs(own - rigid))));
+}
+
 TEST_F(AStudy, TakesFiguresOfTheSummaryOrTellsThatTheyAreNotThere) {
   const std::string study =
       "scenario = '" LIMBER_SOURCE_DIR
@@ -254,6 +290,12 @@ TEST_F(AStudy, IsRefusedBeforeAnyRun) {
   refuse("energy.work", "energy.wrok", "did you mean 'work'?");
   refuse("x / force", "x / forse", "did you mean 'force'?");
   refuse("x / force", "x / (force", "per_force");
+  refuse("measure = 'time'", "measure = 'difference'",
+         "of another 'level' from the run");
+  refuse("expression = 'x / force'",
+         "expression = 'x / force'\nlevel = 'rigid'",
+         "a formula uses responses, which have levels");
+  refuse("measure = 'time'", "level = 'rigidd'", "did you mean 'rigid'?");
   refuse("expression = 'x / force'", "contact = ['sled', 'ball']",
          "unknown contact");
   refuse("uniform = [-2.0, 2.0]\n", "",

@@ -132,7 +132,8 @@ int find_order(const results::ProbeColumn& column) {
 /// Finds the responses of one run.
 class Evaluation {
  public:
-  explicit Evaluation(const Run& run) : run_(run) {}
+  /// @param own that of the responses without a level
+  Evaluation(const Run& run, const Run& own) : run_(run), own_(own) {}
 
   Value operator()(const ProbeResponse& probe) const {
     const auto& columns = run_.history.columns;
@@ -150,6 +151,8 @@ class Evaluation {
         return run_.history.probe_rows.back()[i];
       case Measure::rms:
         return calc_rms(run_.history, i);
+      case Measure::difference:
+        return find_difference(i);
       default:
         return measure_curve(i, probe.measure);
     }
@@ -188,6 +191,17 @@ class Evaluation {
   Value operator()(const ExpressionResponse&) const { return std::nullopt; }
 
  private:
+  [[nodiscard]] Value find_difference(std::size_t column) const {
+    const auto& rows = run_.history.probe_rows;
+    const auto& own = own_.history.probe_rows;
+    if (rows.size() != own.size()) return std::nullopt;
+    double most = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      most = std::max(most, std::abs(rows[i][column] - own[i][column]));
+    }
+    return most;
+  }
+
   [[nodiscard]] Value measure_curve(std::size_t column, Measure measure) const {
     const std::vector<double>& times = run_.history.times;
     const std::vector<double> values = list_samples(run_.history, column);
@@ -205,6 +219,7 @@ class Evaluation {
   }
 
   const Run& run_;
+  const Run& own_;
   std::optional<Json> json_;
 };
 
@@ -374,10 +389,31 @@ bool needs_levels(const Study& study) {
       });
 }
 
-ResponseValues evaluate_run(const Study& study, const Run& run) {
-  Evaluation evaluation(run);
+std::vector<dynamics::Fidelity> list_levels(const Study& study) {
+  std::vector<dynamics::Fidelity> levels;
+  for (const Response& response : study.responses) {
+    if (!response.level) continue;
+    if (std::find(levels.begin(), levels.end(), *response.level) ==
+        levels.end()) {
+      levels.push_back(*response.level);
+    }
+  }
+  return levels;
+}
+
+ResponseValues evaluate_run(const Study& study, const Run& run,
+                            const std::vector<Run>& at_levels) {
+  const std::vector<dynamics::Fidelity> levels = list_levels(study);
+  Evaluation own(run, run);
+  std::vector<Evaluation> others;
+  for (const Run& other : at_levels) others.emplace_back(other, run);
   ResponseValues values;
   for (const Response& response : study.responses) {
+    const auto level = std::find(levels.begin(), levels.end(), response.level);
+    Evaluation& evaluation =
+        response.level
+            ? others.at(static_cast<std::size_t>(level - levels.begin()))
+            : own;
     Value value = std::visit(evaluation, response.source);
     if (value && !std::isfinite(*value)) value.reset();
     values.push_back(value);

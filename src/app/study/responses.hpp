@@ -21,9 +21,15 @@ void check_responses(const Study& study, const scene::Scene& scene,
 /// Whether a response needs the judgement of levels, which costs time.
 [[nodiscard]] bool needs_levels(const Study& study);
 
+/// Each level that a response has, once.
+[[nodiscard]] std::vector<dynamics::Fidelity> list_levels(const Study& study);
+
 /// All responses except formulas.
+/// @param at_levels the same run, with the outputs at the same times, at each
+/// of list_levels
 /// @throws InputError for a figure that the run's summary does not have
-[[nodiscard]] ResponseValues evaluate_run(const Study& study, const Run& run);
+[[nodiscard]] ResponseValues evaluate_run(const Study& study, const Run& run,
+                                          const std::vector<Run>& at_levels);
 
 /// Adds the formulas. Not thread-safe.
 void evaluate_formulas(const Study& study,

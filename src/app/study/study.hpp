@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "limber/dynamics/system/fidelity.hpp"
 #include "limber/scene/text/setting.hpp"
 
 /// Contents of a study file. Plain values; docs/studies.md is the manual page.
@@ -58,6 +59,7 @@ enum class Measure {
   settling_time,
   frequency,
   acceleration,  ///< of columns of places and velocities
+  difference,    ///< largest at an output from the run, of another level
 };
 /// A column of a probe, as "tip.x".
 struct ProbeResponse {
@@ -86,6 +88,8 @@ struct Response {
   std::variant<ProbeResponse, ContactResponse, SummaryResponse,
                ExpressionResponse>
       source;
+  /// Of the same run with every flexible link at this level; no formula's.
+  std::optional<dynamics::Fidelity> level = {};
 };
 
 struct Study {

@@ -143,7 +143,8 @@ Measure read_measure(TomlTable& table) {
                                {"overshoot", Measure::overshoot},
                                {"settling_time", Measure::settling_time},
                                {"frequency", Measure::frequency},
-                               {"acceleration", Measure::acceleration}},
+                               {"acceleration", Measure::acceleration},
+                               {"difference", Measure::difference}},
                               Measure::peak);
 }
 
@@ -159,6 +160,24 @@ ContactResponse read_contact(TomlTable& table) {
   contact.is_impulse = read_choice<bool>(
       table, "measure", {{"impulse", true}, {"peak", false}}, true);
   return contact;
+}
+
+void read_level(TomlTable& table, Response& response) {
+  if (const auto level = table.text("level")) {
+    if (table.has("expression")) {
+      table.fail("level", "a formula uses responses, which have levels");
+    }
+    try {
+      response.level = dynamics::parse_fidelity(*level);
+    } catch (const InputError& error) {
+      table.fail("level", error.what());
+    }
+  }
+  const auto* probe = std::get_if<ProbeResponse>(&response.source);
+  if (probe && probe->measure == Measure::difference && !response.level) {
+    table.fail("measure",
+               "a difference is that of another 'level' from the run");
+  }
 }
 
 Response read_response(TomlTable& table) {
@@ -184,6 +203,7 @@ Response read_response(TomlTable& table) {
   if (const auto formula = table.text("expression")) {
     response.source = ExpressionResponse{*formula};
   }
+  read_level(table, response);
   return response;
 }
 

@@ -60,32 +60,52 @@ std::optional<StudyRow> StudyWorker::make_row(
   return row;
 }
 
-bool StudyWorker::simulate(StudyRow& row) {
+/// Adds to the row's times and warnings.
+Run StudyWorker::make_run(StudyRow& row,
+                          const std::optional<dynamics::Fidelity>& level) {
   const Clock::time_point start = Clock::now();
   scene::Scene scene;
   scene::BuiltScene built;
   {
     const auto lock = lock_libraries();
-    scene = scene::load_scene(study_.scenario,
-                              to_overrides(study_, row.factors), &robots_);
+    scene::Overrides overrides = to_overrides(study_, row.factors);
+    if (level) overrides.fidelity = level;
+    scene = scene::load_scene(study_.scenario, overrides, &robots_);
     built = scene::build_system(scene, reducer_, cache_, make_full_maker({}),
                                 known_);
     known_ = built.known;
   }
-  row.seconds_ready = seconds_since(start);
-  const Run run =
+  row.seconds_ready += seconds_since(start);
+  Run run =
       simulate_built(scene, std::move(built), cache_, watch_, {}, judges_);
-  row.seconds = run.statistics.seconds;
-  row.warnings = fmt::format("{}", fmt::join(list_warnings(run), "\n"));
+  row.seconds += run.statistics.seconds;
+  if (!level) {
+    row.warnings = fmt::format("{}", fmt::join(list_warnings(run), "\n"));
+  }
+  return run;
+}
+
+bool StudyWorker::simulate(StudyRow& row) {
+  const Run run = make_run(row, {});
+  std::vector<Run> at_levels;
+  std::string place;
   try {
     if (run.failure) std::rethrow_exception(run.failure);
+    for (const dynamics::Fidelity level : list_levels(study_)) {
+      place = fmt::format("at level {}: ", dynamics::to_string(level));
+      const Run& other = at_levels.emplace_back(make_run(row, level));
+      if (other.failure) std::rethrow_exception(other.failure);
+    }
   } catch (const dynamics::Interrupted&) {
     return false;
+  } catch (const InputError& error) {
+    row.error = place + error.what();
+    return true;
   } catch (const NumericalError& error) {
-    row.error = error.what();
+    row.error = place + error.what();
     return true;
   }
-  row.responses = evaluate_run(study_, run);
+  row.responses = evaluate_run(study_, run, at_levels);
   return true;
 }
 

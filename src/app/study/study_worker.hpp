@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/app/run/run_scene.hpp"
 #include "limber/app/study/study_file.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -34,6 +35,8 @@ class StudyWorker {
 
  private:
   [[nodiscard]] bool simulate(StudyRow& row);
+  [[nodiscard]] Run make_run(StudyRow& row,
+                             const std::optional<dynamics::Fidelity>& level);
 
   const Study& study_;
   std::filesystem::path cache_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -128,15 +129,32 @@ std::string HoldWatch::describe_share(const Hold& hold) const {
       100.0 * kLargestShare);
 }
 
+std::string HoldWatch::describe_shares(std::vector<const Hold*> soft) const {
+  constexpr std::size_t kMost = 4;
+  std::stable_sort(soft.begin(), soft.end(), [](const Hold* a, const Hold* b) {
+    return a->share() > b->share();
+  });
+  std::string text = describe_share(*soft.front());
+  for (std::size_t i = 1; i < std::min(kMost, soft.size()); ++i) {
+    text += fmt::format("{} '{}'", i == 1 ? "; also soft:" : ",",
+                        model_.couplers[soft[i]->coupler].name);
+  }
+  if (soft.size() > kMost)
+    text += fmt::format(" and {} more", soft.size() - kMost);
+  return text;
+}
+
 std::vector<std::string> HoldWatch::find_warnings() const {
   std::vector<std::string> warnings;
+  std::vector<const Hold*> soft;
   for (const Hold& hold : holds_) {
     if (hold.largest() > kLargest) {
       warnings.push_back(describe(hold));
     } else if (hold.largest() > kNegligible && hold.share() > kLargestShare) {
-      warnings.push_back(describe_share(hold));
+      soft.push_back(&hold);
     }
   }
+  if (!soft.empty()) warnings.push_back(describe_shares(std::move(soft)));
   return warnings;
 }
 

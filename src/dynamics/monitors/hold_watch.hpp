@@ -30,8 +30,8 @@ class HoldWatch {
 
   /// The end of a step. @param terms at `state`
   void include(const SystemState& state, const SystemTerms& terms);
-  /// One for each joint displaced by more than kLargest, or whose share of the
-  /// elastic energy exceeds kLargestShare.
+  /// One for each joint displaced by more than kLargest, and one for all whose
+  /// share of the elastic energy exceeds kLargestShare, the largest first.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
@@ -78,6 +78,9 @@ class HoldWatch {
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
   [[nodiscard]] std::string describe_share(const Hold& hold) const;
+  /// @param soft at least one
+  [[nodiscard]] std::string describe_shares(
+      std::vector<const Hold*> soft) const;
 
   const SystemModel& model_;
   std::vector<std::vector<BodyIndex>> groups_;
