@@ -137,7 +137,8 @@ bool EnergyGroups::connect(const PairTerms& pairs,
   return true;
 }
 
-void EnergyGroups::start(const std::vector<EnergyAccount>& accounts) {
+void EnergyGroups::start(const std::vector<EnergyAccount>& accounts,
+                         double taken) {
   std::vector<Vector3> momenta(groups_.size(), Vector3::Zero());
   for (std::size_t i = 0; i < accounts.size(); ++i) {
     const std::size_t root = group_of(i);
@@ -151,7 +152,8 @@ void EnergyGroups::start(const std::vector<EnergyAccount>& accounts) {
   }
   sum_up(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    groups_[i].watch = EnergyWatch(std::abs(sums_[i].stored), lags_);
+    groups_[i].watch = EnergyWatch(std::abs(sums_[i].stored) + taken, lags_);
+    groups_[i].throughput = taken;
     include_extremes(i);
   }
 }

@@ -35,7 +35,8 @@ class EnergyGroups {
   bool connect(const PairTerms& pairs,
                const std::vector<EnergyAccount>& accounts);
   /// Begins with the energies at the start.
-  void start(const std::vector<EnergyAccount>& accounts);
+  /// @param taken by an impulse just before, which each group may have had [J]
+  void start(const std::vector<EnergyAccount>& accounts, double taken);
   /// Sets each group's sums of accounts, which the functions below judge.
   void sum_up(const std::vector<EnergyAccount>& accounts);
   /// The end of a step [s]. Call connect() and sum_up() before.

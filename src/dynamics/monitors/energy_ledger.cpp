@@ -190,7 +190,8 @@ void EnergyLedger::include_energies(const Sums& sums, double t) {
   record_.coupler.include(sums.coupler, t);
 }
 
-void EnergyLedger::start(const SystemState& state, const SystemTerms& terms) {
+void EnergyLedger::start(const SystemState& state, const SystemTerms& terms,
+                         double taken) {
   const Sums sums = evaluate(state, terms);
   for (EnergyAccount& row : next_) {
     row.initial = row.stored;
@@ -199,7 +200,7 @@ void EnergyLedger::start(const SystemState& state, const SystemTerms& terms) {
   accounts_ = next_;
   time_ = state.t;
   record_ = {};
-  groups_.start(accounts_);
+  groups_.start(accounts_, taken);
   groups_.connect(terms.pairs, accounts_);
   include_energies(sums, state.t);
 }

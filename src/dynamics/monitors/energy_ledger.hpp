@@ -34,7 +34,9 @@ class EnergyLedger {
   EnergyLedger(const SystemModel& model, IntegratorKind integrator);
 
   /// @param terms at `state`, here and below
-  void start(const SystemState& state, const SystemTerms& terms);
+  /// @param taken by an impulse just before [J]
+  void start(const SystemState& state, const SystemTerms& terms,
+             double taken = 0.0);
   /// The end of a step. @param flows sums since the start
   void add(const SystemState& state, const SystemTerms& terms,
            const EnergyFlows& flows);

@@ -33,8 +33,8 @@ const SystemTerms& StepAudit::evaluate(const SystemState& state, Side side) {
 }
 
 void StepAudit::start(const SystemState& state, const SystemTerms& terms,
-                      std::vector<Event>& events) {
-  ledger_.start(state, terms);
+                      double taken, std::vector<Event>& events) {
+  ledger_.start(state, terms, taken);
   holds_.include(state, terms);
   limits_.include(state, terms, events);
 }

@@ -24,7 +24,8 @@ class StepAudit {
   StepAudit(const SystemModel& model, IntegratorKind integrator);
 
   /// @param terms at `state`
-  void start(const SystemState& state, const SystemTerms& terms,
+  /// @param taken by an impulse just before [J]
+  void start(const SystemState& state, const SystemTerms& terms, double taken,
              std::vector<Event>& events);
   /// Accounts for a jump of forces at the end of the last step.
   /// @param flows sums since the start

@@ -251,13 +251,15 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
              ? std::min(control_.propose(state, span), limit_free_step(state))
              : span / static_cast<double>(parts_);
     if (!has_started_) {
-      if (const auto impulse = stepper_.start(state, h_)) {
+      const auto impulse = stepper_.start(state, h_);
+      if (impulse) {
         statistics_.warnings.push_back(describe(*impulse, state.t, h_));
       }
       calc_terms(model_, state, Side::right, terms_);
       clash_ = find_start_clash(model_, state, terms_, h_);
       peaks_.start(state);
-      audit_.start(state, terms_, statistics_.events);
+      audit_.start(state, terms_, impulse ? impulse->dissipated : 0.0,
+                   statistics_.events);
       contacts_.include(state, stepper_.touches(), audit_, stepper_.flows());
     }
     if (at_jump_) {
