@@ -135,8 +135,8 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
         errors || (scene.scenario.output.errors && given.empty());
     if (is_asked && !recorded->run.failure) {
       try {
-        recorded->run.errors =
-            app::estimate_errors(recorded->run, cache, watch);
+        app::add_errors(recorded->run,
+                        app::estimate_errors(recorded->run, cache, watch));
       } catch (const dynamics::Interrupted&) {
         recorded->run.failure = std::current_exception();
       }

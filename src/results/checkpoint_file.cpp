@@ -16,7 +16,7 @@
 namespace limber::results {
 
 constexpr auto fields_of(const ProbeColumn*) {
-  return list_fields("column", "name", "unit");
+  return list_fields("column", "name", "unit", "error");
 }
 
 constexpr auto fields_of(const History*) {

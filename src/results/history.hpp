@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace limber::results {
 struct ProbeColumn {
   std::string name;  ///< e.g. "finger_tip.ux"
   std::string unit;  ///< e.g. "m"
+  /// Of all of the curve [unit]; NaN: not estimated.
+  double error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Results of a run in memory: one entry per output time, except in `events`.

@@ -87,6 +87,14 @@ void add_band(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
+std::string plot_error(const std::string& block, const Series& series,
+                       std::size_t s) {
+  return fmt::format(
+      "${0} using 1:($2-({1:.9g})):($2+({1:.9g})) with filledcurves fs "
+      "transparent solid 0.15 noborder lc rgb '{2}' notitle, ",
+      block, *series.error, kProbeColours[s % kProbeColours.size()]);
+}
+
 std::string plot_band(const std::string& block, std::size_t s) {
   return fmt::format(
       "${}b using 1:2:3 with filledcurves fs transparent solid 0.25 noborder "
@@ -128,7 +136,7 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
                double reference, const std::string& key_height,
                const std::string& time_label) {
   set_range(script, panel, reference);
-  script.add("set ylabel " + quote(panel.label) + " offset 1,0");
+  script.add("set ylabel " + quote(panel.label) + " offset 0.3,0");
   const bool is_last = !time_label.empty();
   script.add(is_last ? "set xlabel " + quote(time_label) : "unset xlabel");
   script.add(is_last ? "set format x '%g'" : "set format x ''");
@@ -139,6 +147,10 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
     script.add("unset key");
   }
   std::string plot = "plot ";
+  for (std::size_t s = 0; s < panel.series.size(); ++s) {
+    if (!panel.series[s].error) continue;
+    plot += plot_error(fmt::format("d{}_{}", p, s), panel.series[s], s);
+  }
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     if (!panel.series[s].band) continue;
     plot += plot_band(fmt::format("d{}_{}", p, s), s);

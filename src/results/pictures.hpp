@@ -28,6 +28,8 @@ struct Series {
   std::optional<dynamics::Extreme> peak = {};
   /// Drawn behind the curve, in its colour.
   std::optional<Band> band = {};
+  /// Half the height of a pale band about the curve [as `values`].
+  std::optional<double> error = {};
 };
 
 /// One panel: curves that share an axis.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/hdf5_file.hpp"
@@ -30,6 +31,11 @@ void write_probes(Hdf5File& out, const History& history) {
     }
     out.write("probes/" + to_path_step(history.columns[c].name), values,
               history.columns[c].unit, "probe at each output time");
+    if (const double error = history.columns[c].error; !std::isnan(error)) {
+      out.write("errors/" + to_path_step(history.columns[c].name),
+                MatrixX(MatrixX::Constant(1, 1, error)),
+                history.columns[c].unit, "estimated error of the curve");
+    }
   }
 }
 

@@ -215,6 +215,7 @@ class PageWriter {
         packed["peak"] = {{"value", probe.peak->value},
                           {"time", probe.peak->time}};
       }
+      if (probe.error) packed["error"] = *probe.error;
       if (probe.band) packed["band"] = pack(*probe.band);
       result["probes"].push_back(std::move(packed));
     }

@@ -371,6 +371,9 @@ class RecordingReader {
         const MatrixX peak = matrix("peaks/" + step, 1, 2);
         probe.peak = {peak(0, 0), peak(0, 1)};
       }
+      if (in_.has("errors/" + step)) {
+        probe.error = matrix("errors/" + step, 1, 1)(0, 0);
+      }
       if (in_.has("envelopes/" + step)) probe.band = read_band(step, probe);
       recording_.probes.push_back(std::move(probe));
     }

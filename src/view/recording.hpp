@@ -107,6 +107,7 @@ struct Probe {
   std::optional<Peak> peak = {};
   /// Where it reaches beyond the values at outputs.
   std::optional<results::Band> band = {};
+  std::optional<double> error = {};  ///< of the curve, if it was estimated
 };
 
 struct Recording {

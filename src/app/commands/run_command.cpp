@@ -59,8 +59,8 @@ StudiedRun find_run(const RunOptions& options) {
 
 void estimate_errors(Run& run, const std::string& cache) {
   try {
-    run.errors =
-        estimate_errors(run, cache, watch_signals(make_progress_bar()));
+    add_errors(run,
+               estimate_errors(run, cache, watch_signals(make_progress_bar())));
   } catch (const std::exception& error) {
     run.printed_warnings.push_back(
         fmt::format("errors are not known: {}", error.what()));

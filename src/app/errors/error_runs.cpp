@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -209,6 +210,16 @@ class Estimator {
 ErrorTable estimate_errors(const Run& run, const std::filesystem::path& cache,
                            const Progress& progress) {
   return Estimator(run, cache, progress).estimate();
+}
+
+void add_errors(Run& run, ErrorTable errors) {
+  for (const ProbeErrors& probe : errors.probes) {
+    for (results::ProbeColumn& column : run.history.columns) {
+      if (column.name != probe.column) continue;
+      if (std::isfinite(probe.total.curve)) column.error = probe.total.curve;
+    }
+  }
+  run.errors = std::move(errors);
 }
 
 }  // namespace limber::app

@@ -16,4 +16,7 @@ namespace limber::app {
                                          const std::filesystem::path& cache,
                                          const Progress& progress);
 
+/// Has files and pictures of the run show them.
+void add_errors(Run& run, ErrorTable errors);
+
 }  // namespace limber::app

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "limber/app/reports/event_report.hpp"
@@ -26,6 +27,8 @@ results::Series make_series(const NamedHistory& line, std::size_t column) {
   for (const std::vector<double>& row : line.history->probe_rows) {
     series.values.push_back(row[column]);
   }
+  const double error = line.history->columns[column].error;
+  if (!std::isnan(error)) series.error = error;
   const dynamics::RunRecord* record = line.record;
   if (record == nullptr || column >= record->peaks.size()) return series;
   series.peak = record->peaks[column];
@@ -46,7 +49,9 @@ std::string find_probe_name(const std::string& column) {
 results::Panel make_panel(const std::vector<NamedHistory>& lines,
                           std::size_t column) {
   const results::ProbeColumn& what = lines.front().history->columns[column];
-  results::Panel panel{fmt::format("{} [{}]", what.name, what.unit), {}};
+  std::string label = fmt::format("{} [{}]", what.name, what.unit);
+  if (!std::isnan(what.error)) label += fmt::format(" ± {:.2g}", what.error);
+  results::Panel panel{label, {}};
   for (const NamedHistory& line : lines) {
     panel.series.push_back(make_series(line, column));
   }

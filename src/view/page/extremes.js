@@ -1,5 +1,5 @@
-// Peaks and envelopes of probes in their plots: what all steps showed, where the
-// curve goes through the outputs alone.
+// Peaks, envelopes and errors of probes in their plots: what all steps showed, where
+// the curve goes through the outputs alone, and how far it may be off.
 import { format } from './colours.js';
 
 const kRadius = 4; // of a peak's mark [pixels]
@@ -35,6 +35,23 @@ function clip(u) {
   u.ctx.beginPath();
   u.ctx.rect(left, top, width, height);
   u.ctx.clip();
+}
+
+/// Pale bands of each curve's error about it.
+export function drawErrors(u, series, colours) {
+  clip(u);
+  u.ctx.globalAlpha = 0.15;
+  series.forEach(({ times, values, error }, s) => {
+    if (!error || !u.series[s + 1].show) return;
+    const place = (i, side) =>
+      [u.valToPos(times[i], 'x', true), u.valToPos(values[i] + side * error, 'y', true)];
+    u.ctx.fillStyle = colours[s];
+    u.ctx.beginPath();
+    for (let i = 0; i < times.length; ++i) u.ctx.lineTo(...place(i, 1));
+    for (let i = times.length - 1; i >= 0; --i) u.ctx.lineTo(...place(i, -1));
+    u.ctx.fill();
+  });
+  u.ctx.restore();
 }
 
 /// Rectangles from least to most, behind the curves.

@@ -1,7 +1,7 @@
 // Plots of probes and picked points over time, with a cursor at the page's time.
 import uPlot from 'uplot';
-import { labelTicks } from './colours.js';
-import { drawBands, drawPeaks, findRange } from './extremes.js';
+import { format, labelTicks } from './colours.js';
+import { drawBands, drawErrors, drawPeaks, findRange } from './extremes.js';
 
 const kDashes = [[6, 4], [2, 3], [10, 3, 2, 3]]; // of ghosts
 const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b', '#b07aa1', '#76b7b2', '#9c755f'];
@@ -18,11 +18,17 @@ export function groupProbes(results) {
       if (!groups.has(id)) groups.set(id, { name, unit: probe.unit, series: [] });
       groups.get(id).series.push({
         label, values: probe.values, times: result.times, ghost: r,
-        peak: probe.peak, band: probe.band,
+        peak: probe.peak, band: probe.band, error: probe.error,
       });
     }
   });
   return [...groups.values()];
+}
+
+function labelOf(series, unit) {
+  const error = series.error ? ` \u00b1 ${format(Number(series.error.toPrecision(2)), unit)}` : '';
+  if (!series.ghost) return series.label + error;
+  return `${series.label}${error} (${series.ghostName ?? `ghost ${series.ghost}`})`;
 }
 
 // One list of times for all series; gaps where a series has none.
@@ -103,7 +109,7 @@ export class Plots {
         series: [
           { label: 'time' },
           ...group.series.map((s, i) => ({
-            label: s.ghost ? `${s.label} (${s.ghostName ?? `ghost ${s.ghost}`})` : s.label,
+            label: labelOf(s, group.unit),
             stroke: colours[i],
             width: s.ghost ? 1 : 1.5,
             dash: s.ghost ? kDashes[(s.ghost - 1) % kDashes.length] : undefined,
@@ -112,7 +118,10 @@ export class Plots {
           })),
         ],
         hooks: {
-          drawAxes: [(u) => drawBands(u, group.series, colours)],
+          drawAxes: [
+            (u) => drawErrors(u, group.series, colours),
+            (u) => drawBands(u, group.series, colours),
+          ],
           draw: [
             (u) => drawPeaks(u, group.series, colours, group.unit),
             (u) => this.drawTime(u),

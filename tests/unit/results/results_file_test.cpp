@@ -188,6 +188,17 @@ TEST(ResultsFile, ScalarsAreThoseOfTheRunToTheLastBit) {
   }
 }
 
+TEST(ResultsFile, HasTheErrorsThatAreKnown) {
+  SmallRun run = make_small_run();
+  run.history.columns[1].error = 0.25;
+  const TemporaryFolder folder;
+  write_results(folder.path() / "r.h5", run.model, run.history);
+  const Hdf5File in = Hdf5File::open(folder.path() / "r.h5");
+  EXPECT_THAT(in.list("errors"), ElementsAreArray({"tip.wy"}));
+  EXPECT_EQ(in.read_matrix("errors/tip.wy")(0, 0), 0.25);
+  EXPECT_EQ(in.read_unit("errors/tip.wy"), "rad/s");
+}
+
 TEST(ResultsFile, NamesTheLevelOfEachBody) {
   const SmallRun run = make_small_run();
   const TemporaryFolder folder;

@@ -128,6 +128,16 @@ TEST(PageData, TouchesCountFromTheOffsetAndTheCommonMotion) {
   }
 }
 
+TEST(PageData, ErrorsAreWithTheProbesThatHaveSome) {
+  Recording recording = make_flight({});
+  recording.probes = {{"tip.ux", "m", VectorX::Zero(kFlightOutputs)},
+                      {"tip.uy", "m", VectorX::Zero(kFlightOutputs)}};
+  recording.probes[1].error = 0.25;
+  const Page page(recording);
+  EXPECT_FALSE(page.result()["probes"][0].contains("error"));
+  EXPECT_EQ(page.result()["probes"][1]["error"], 0.25);
+}
+
 TEST(PageData, BytesOfNamesThatAreNotUtf8AreEscaped) {
   Recording recording = make_flight({});
   for (const auto& [name, shown] : {std::pair{"\xfc", "\\xfc"},
