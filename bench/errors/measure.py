@@ -13,6 +13,7 @@ stated one, and whose stated one is at most ten times the true one; true errors
 below 1e-6 of the largest peak of that unit, as across a plane of symmetry, are left out.
 """
 import argparse
+import bisect
 import csv
 import json
 import math
@@ -40,6 +41,17 @@ def read_curves(folder):
     names = [name.rsplit(" [", 1)[0] for name in rows[0]]
     columns = zip(*[[float(x) for x in row] for row in rows[1:]])
     return dict(zip(names, columns))
+
+
+def pick(curves, name, times):
+    """Values at these times, between outputs, which may be more, by a line."""
+    own, values = curves["time"], curves[name]
+    picked = []
+    for time in times:
+        i = min(max(bisect.bisect_left(own, time), 1), len(own) - 1)
+        share = (time - own[i - 1]) / (own[i] - own[i - 1])
+        picked.append(values[i - 1] + share * (values[i] - values[i - 1]))
+    return picked
 
 
 def read_peaks(folder):
@@ -114,7 +126,7 @@ def compare(limber, scenario, place):
         floor = 1e-6 * largest[errors["unit"]]
         for kind in ("curve", "peak"):
             if kind == "curve":
-                both = zip(curves[name], true_curves[name])
+                both = zip(curves[name], pick(true_curves, name, curves["time"]))
                 true = max(abs(a - b) for a, b in both)
             else:
                 sizes = [abs(float(p[name]["peak"])) for p in (peaks, true_peaks)]
