@@ -63,6 +63,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       oscillations_(find_oscillations(model)),
       stepper_(model, settings, statistics.events, refinement),
       sampling_(model, state.t),
+      saturation_(model),
       control_(make_budget(settings, state.t), settings.step, refinement),
       peaks_(model, followed,
              choose_envelope_edges(state.t, settings.output_times,
@@ -91,6 +92,7 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   peaks_.exchange_memory(archive);
   audit_.exchange_memory(archive);
   contacts_.exchange_memory(archive);
+  saturation_.exchange_memory(archive);
   exchange_costs(archive, statistics_);
   archive(statistics_.events, statistics_.warnings);
 }
@@ -317,6 +319,7 @@ void TimeLoop::begin(SystemState& state) {
 void TimeLoop::take_samples(SystemState& state) {
   jumps_.clear();
   inputs_jump_ |= sampling_.take(state, jumps_.supplied);
+  saturation_.include(state, h_, statistics_.warnings);
   stepper_.add_between_steps(jumps_);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/dynamics/control/saturation_observer.hpp"
 #include "limber/dynamics/monitors/contact_log.hpp"
 #include "limber/dynamics/monitors/energy_watch.hpp"
 #include "limber/dynamics/monitors/peak_watch.hpp"
@@ -141,6 +142,7 @@ class TimeLoop {
   std::vector<Oscillation> oscillations_;
   EventStepper stepper_;
   ControllerSampling sampling_;
+  SaturationObserver saturation_;
   StepControl control_;
   PeakWatch peaks_;
   StepAudit audit_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/system/pid_controller.hpp"
+#include "limber/dynamics/control/pid_controller.hpp"
 
 #include <gmock/gmock.h>
 

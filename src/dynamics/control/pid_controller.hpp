@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limber/common/records/fields.hpp"
+#include "limber/dynamics/control/linear_law.hpp"
 #include "limber/dynamics/system/controller.hpp"
 #include "limber/joints/scalar/signal.hpp"
 
@@ -50,6 +51,11 @@ class PidController : public Controller {
 
   /// The required ControllerModel::memory.
   [[nodiscard]] std::vector<double> make_memory() const;
+
+  [[nodiscard]] const PidParameters& parameters() const { return parameters_; }
+
+  /// The law within its limits, after its first sample.
+  [[nodiscard]] LinearLaw linearise() const;
 
   void sample(const ControllerView& view, std::span<double> memory,
               std::span<double> written) const override;

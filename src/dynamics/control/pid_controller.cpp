@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/system/pid_controller.hpp"
+#include "limber/dynamics/control/pid_controller.hpp"
 
 #include <fmt/format.h>
 
@@ -67,6 +67,36 @@ std::vector<double> PidController::make_memory() const {
   std::vector<double> memory(kDelayed + parameters_.delay, parameters_.initial);
   std::fill_n(memory.begin(), kDelayed, 0.0);
   return memory;
+}
+
+// States: the filtered measurement, the filtered rate, the integral, and what
+// is delayed, the oldest first.
+LinearLaw PidController::linearise() const {
+  const PidParameters& p = parameters_;
+  const Eigen::Index delay = static_cast<Eigen::Index>(p.delay);
+  const Eigen::Index n = 3 + delay;
+  const Eigen::Index reference = p.has_rate ? 2 : 1;
+  // Rows over the states, the measurements, the reference and its rate.
+  using Row = Eigen::RowVectorXd;
+  const auto unit = [&](Eigen::Index i) {
+    return Row(Row::Unit(n + reference + 2, i));
+  };
+  const Row filtered = (1.0 - share_) * unit(0) + share_ * unit(n);
+  const Row rate = p.has_rate
+                       ? Row((1.0 - share_) * unit(1) + share_ * unit(n + 1))
+                       : Row((filtered - unit(0)) / p.period);
+  const Row error = unit(n + reference) - filtered;
+  const Row integral = unit(2) + p.integral * p.period * error;
+  const Row u = p.proportional * error + integral +
+                p.derivative * (unit(n + reference + 1) - rate);
+  MatrixX next(n, u.size());
+  next.topRows<3>() << filtered, rate, integral;
+  for (Eigen::Index i = 0; i < delay; ++i) {
+    next.row(3 + i) = i + 1 < delay ? unit(4 + i) : u;
+  }
+  const Row written = delay > 0 ? unit(3) : u;
+  return {next.leftCols(n), next.rightCols(reference + 2), written.head(n),
+          written.tail(reference + 2)};
 }
 
 void PidController::sample(const ControllerView& view, std::span<double> memory,
