@@ -2,12 +2,16 @@
 #include "limber/dynamics/simulation/failure_diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
@@ -67,6 +71,93 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
   return {};
 }
 
+// Of the controllers that the law of a coupler or transmission follows.
+std::string name_controllers(const SystemModel& model,
+                             const std::vector<int>& inputs) {
+  std::vector<std::string> names;
+  for (const ControllerModel& controller : model.controllers) {
+    for (const int input : controller.writes) {
+      if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) {
+        continue;
+      }
+      names.push_back(fmt::format("'{}', period {:.4g} s", controller.name,
+                                  controller.period));
+    }
+  }
+  return names.empty()
+             ? ""
+             : fmt::format(" (controller {})", fmt::join(names, " and "));
+}
+
+std::string name_loads(const SystemModel& model, std::size_t body) {
+  std::vector<std::string> names;
+  if (!model.gravity_W.isZero(0.0)) names.emplace_back("weight");
+  for (const Load& load : model.loads) {
+    if (model.attachments[index(load.where)].body != static_cast<int>(body)) {
+      continue;
+    }
+    const auto* follows = std::get_if<InputFunction>(&load.function);
+    names.push_back(
+        "'" + load.name + "'" +
+        (follows == nullptr ? "" : name_controllers(model, {follows->input})));
+  }
+  for (const BodyLoad& load : model.body_loads) {
+    if (load.body == static_cast<int>(body)) {
+      names.push_back("'" + load.name + "'");
+    }
+  }
+  return fmt::format("the loads ({}) on body '{}'", fmt::join(names, ", "),
+                     model.bodies[body].name);
+}
+
+// @param supplied in the rows of EnergyRows [W]
+std::string describe_power(const SystemModel& model, const VectorX& supplied) {
+  if (supplied.size() == 0 || !supplied.allFinite()) return "";
+  const EnergyRows rows(model);
+  Eigen::Index row = 0;
+  const double most = supplied.cwiseAbs().maxCoeff(&row);
+  if (!(most > 0.0)) return "";
+  std::string who;
+  if (row < rows.couplers) {
+    who = name_loads(model, static_cast<std::size_t>(row));
+  } else if (row < rows.transmissions) {
+    const Coupler& coupler =
+        model.couplers[static_cast<std::size_t>(row - rows.couplers)];
+    who = fmt::format("the drive of joint '{}'", coupler.name) +
+          name_controllers(model, joints::find_inputs(coupler.law));
+  } else {
+    const Transmission& line =
+        model.transmissions[static_cast<std::size_t>(row - rows.transmissions)];
+    std::vector<int> inputs;
+    for (const auto& law : line.laws) {
+      const std::vector<int> own = joints::find_inputs(law);
+      inputs.insert(inputs.end(), own.begin(), own.end());
+    }
+    who = fmt::format("the drive of tendon '{}'", line.name) +
+          name_controllers(model, inputs);
+  }
+  return fmt::format("; the largest power is that of {}: {:.3g} W", who,
+                     supplied[row]);
+}
+
+// The pair with the largest force.
+std::string describe_push(const SystemModel& model, const SystemTerms& terms) {
+  double most = 0.0;
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    Vector3 force = Vector3::Zero();
+    for (const auto& point : terms.pairs.responses[i].points()) {
+      force += point.force_W;
+    }
+    if (!(force.norm() > most)) continue;
+    most = force.norm();
+    pair = i;
+  }
+  if (most == 0.0) return "";
+  return fmt::format("; contact '{}' pushes with {:.3g} N",
+                     model.pairs[pair].name, most);
+}
+
 }  // namespace
 
 std::string find_cause(const SystemModel& model, const SystemState& state,
@@ -115,6 +206,19 @@ std::string find_start_clash(const SystemModel& model, const SystemState& state,
         model.couplers[c].name, power, relative);
   }
   return clash;
+}
+
+std::string find_driver(const SystemModel& model, const SystemState& state) {
+  SystemTerms terms = make_terms(model);
+  try {
+    calc_terms(model, state, Side::right, terms);
+  } catch (const NumericalError&) {
+    return "";  // too corrupted to evaluate
+  }
+  EnergyFlows powers = make_flows(model);
+  powers.clear();
+  add_powers(terms, 1.0, powers);
+  return describe_power(model, powers.supplied) + describe_push(model, terms);
 }
 
 std::string find_most_energy(const SystemModel& model,

@@ -169,7 +169,8 @@ void TimeLoop::fail(const SystemState& state, double h,
   const bool is_cause_here = is_sound(state);
   const auto cause = find_cause(model_, is_cause_here ? state : sound_,
                                 settings_.integrator, is_cause_here ? h : h_);
-  throw NumericalError(cause.empty() ? what : what + "; " + cause);
+  throw NumericalError((cause.empty() ? what : what + "; " + cause) +
+                       find_driver(model_, is_cause_here ? state : sound_));
 }
 
 void TimeLoop::inspect(const SystemState& state) {
@@ -197,9 +198,9 @@ void TimeLoop::check(const SystemState& state) {
   if (!check_) return;
   try {
     check_(state);
-  } catch (const NumericalError&) {
+  } catch (const NumericalError& error) {
     if (has_started_) inspect(state);
-    throw;
+    throw NumericalError(error.what() + find_driver(model_, state));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <span>
 #include <string>
 
 #include "limber/common/rotation.hpp"
@@ -12,6 +14,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
+#include "support/sliding_masses.hpp"
 
 namespace limber::dynamics::failure_diagnosis_test {
 namespace {
@@ -157,6 +160,39 @@ TEST_F(MostEnergy, OfACouplerIsWhatItStores) {
   move(0.0, 1.0);
   state_.bodies[0].p_WB.x() = std::sqrt(1.01 / 100.0);
   EXPECT_EQ(find(), "coupler 'spring'");
+}
+
+// Power: force times velocity.
+TEST(Driver, IsTheLoadOrDriveOfLargestPowerWithItsController) {
+  SystemBuilder builder;
+  const limber::testing::Mass mass =
+      limber::testing::add_mass(builder, "mass", 2.0);
+  const InputIndex push = builder.add_input("push", 3.0);
+  const InputIndex pull = builder.add_input("pull", -4.0);
+  limber::testing::add_rail(
+      builder, mass, "rail",
+      {{0, joints::Drive({.mode = joints::DriveMode::effort,
+                          .signal = {joints::InputSignal{pull}}})}});
+  builder.add_load("push", mass.frame, Vector3::UnitX(), Vector3::Zero(),
+                   LoadFrame::world, InputFunction{push, 1.0});
+  const auto nothing = std::make_shared<FunctionController>(
+      "nothing",
+      [](const ControllerView&, std::span<double>, std::span<double>) {});
+  builder.add_controller(
+      {.name = "thruster", .period = 0.02, .writes = {push}, .law = nothing});
+  builder.add_controller(
+      {.name = "servo", .period = 0.01, .writes = {pull}, .law = nothing});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  EXPECT_THAT(find_driver(model, state), IsEmpty());
+  state.bodies[0].v_WB_W.x() = 2.0;
+  EXPECT_EQ(find_driver(model, state),
+            "; the largest power is that of the drive of joint 'rail' "
+            "(controller 'servo', period 0.01 s): -8 W");
+  state.inputs[1].value = -2.0;
+  EXPECT_EQ(find_driver(model, state),
+            "; the largest power is that of the loads ('push' (controller "
+            "'thruster', period 0.02 s)) on body 'mass': 6 W");
 }
 
 }  // namespace
