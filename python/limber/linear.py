@@ -8,7 +8,8 @@ import numpy
 
 class LinearModel:
     """z' = A z + B (u - u0), y - y0 = C z + D (u - u0), of n states, m inputs
-    and p outputs; see docs/linearize.md.
+    and p outputs; see docs/linearize.md. With closed loops it is discrete, from
+    sample to sample: z_(k+1) = A z_k + B du_k, dy_k = C z_k + D du_k.
 
     Matrices are read-only views of the memory of the model, which they keep
     alive. Units of their entries follow from those of states, inputs and
@@ -20,12 +21,14 @@ class LinearModel:
 
     @property
     def A(self):
-        """(n, n) [unit of the row's state per second / column's state]."""
+        """(n, n) [unit of the row's state per second / column's state], of a
+        discrete model not per second."""
         return self._made.A
 
     @property
     def B(self):
-        """(n, m) [unit of the row's state per second / column's input]."""
+        """(n, m) [unit of the row's state per second / column's input], of a
+        discrete model not per second."""
         return self._made.B
 
     @property
@@ -85,6 +88,11 @@ class LinearModel:
         return self._made.time
 
     @property
+    def period(self):
+        """Period of a discrete model [s]; None: the model is continuous."""
+        return self._made.period
+
+    @property
     def about(self):
         """Reference of the model: "start", "equilibrium" or "time"."""
         return self._made.about
@@ -101,7 +109,7 @@ class LinearModel:
 
     @property
     def open_loops(self):
-        """Names of controllers, which are not part of the model."""
+        """Names of controllers that are not part of the model."""
         return self._made.open_loops
 
     @property
@@ -137,9 +145,11 @@ class LinearModel:
         self._made.save(os.fspath(file))
 
     def to_scipy(self):
-        """As a ``scipy.signal.StateSpace``, whose matrices are copies."""
+        """As a ``scipy.signal.StateSpace``, whose matrices are copies; a discrete
+        model with ``dt``."""
         from scipy.signal import StateSpace
-        return StateSpace(self.A, self.B, self.C, self.D)
+        sampled = {} if self.period is None else {"dt": self.period}
+        return StateSpace(self.A, self.B, self.C, self.D, **sampled)
 
     def __repr__(self):
         return (f"<limber.LinearModel of {self.scenario!r} about the {self.about}, "

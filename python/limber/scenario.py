@@ -25,14 +25,14 @@ def load(file, set=None, unset=(), fidelity=None):
 
 
 def linearize(scenario, at="start", inputs=None, outputs=None, states=None,
-              cache=None):
+              closed_loop=False, cache=None):
     """Linear model of a scenario, a :class:`Scenario` or its file.
 
     As :meth:`Scenario.linearize`. Returns a :class:`LinearModel`.
     """
     if not isinstance(scenario, Scenario):
         scenario = Scenario(scenario)
-    return scenario._linearize(at, inputs, outputs, states, cache)
+    return scenario._linearize(at, inputs, outputs, states, closed_loop, cache)
 
 
 class Controller:
@@ -214,24 +214,27 @@ class Scenario:
         return found
 
     def linearize(self, at="start", inputs=None, outputs=None, states=None,
-                  cache=None):
+                  closed_loop=False, cache=None):
         """Linear model (A, B, C, D) of its system, as ``limber linearize``.
 
         ``at``: "start", "equilibrium", or a time of its run [s]. ``inputs``:
         names of loads, drives and controllers, ``outputs``: names of probes or
         their columns, both by default all, in the model's order. ``states``: a
         number of states n, to which the model is reduced by balanced
-        truncation. Controllers are not part of it: their loops are open.
+        truncation. Controllers are not part of it, their loops are open, except
+        with ``closed_loop``: then the model is discrete, from sample to sample,
+        with all inputs, outputs and states.
 
         Returns a :class:`LinearModel`, with matrices of shapes (n, n), (n, m),
         (p, n) and (p, m) for m inputs and p outputs.
         """
-        return self._linearize(at, inputs, outputs, states, cache)
+        return self._linearize(at, inputs, outputs, states, closed_loop, cache)
 
-    def _linearize(self, at, inputs, outputs, states, cache):
+    def _linearize(self, at, inputs, outputs, states, closed_loop, cache):
         """Common part of both functions; warnings refer to the caller's line."""
         made = LinearModel(_core.linearize(
-            self._scene, at, _names(inputs), _names(outputs), states, _path(cache)))
+            self._scene, at, _names(inputs), _names(outputs), states, closed_loop,
+            _path(cache)))
         for text in made.warnings:
             warnings.warn(text, LimberWarning, stacklevel=3)
         return made

@@ -46,11 +46,12 @@ std::shared_ptr<LinearRun> linearize(const scene::Scene& scene,
                                      const py::object& at, const Names& inputs,
                                      const Names& outputs,
                                      const std::optional<int>& states,
-                                     const fs::path& cache) {
+                                     bool closed_loop, const fs::path& cache) {
   const app::LinearRequest request = {
       read_time_or_reference(at),
       {read_names("inputs", inputs), read_names("outputs", outputs)},
-      read_states(states)};
+      read_states(states),
+      closed_loop};
   return run_alone([&](const Progress& watch) {
     return std::make_shared<LinearRun>(
         app::linearise_scene(scene, request, cache, watch));
@@ -141,6 +142,11 @@ void bind_linear(py::module_& m) {
           })
       .def_property_readonly(
           "time", [](const LinearRun& run) { return run.record.time; })
+      .def_property_readonly("period",
+                             [](const LinearRun& run) -> py::object {
+                               if (run.record.period == 0.0) return py::none();
+                               return py::float_(run.record.period);
+                             })
       .def_property_readonly(
           "about", [](const LinearRun& run) { return run.record.about; })
       .def_property_readonly(
@@ -153,7 +159,7 @@ void bind_linear(py::module_& m) {
       .def("save", &save_linear_model, py::arg("file"));
   m.def("linearize", &linearize, py::arg("scene"), py::arg("at"),
         py::arg("inputs"), py::arg("outputs"), py::arg("states"),
-        py::arg("cache"));
+        py::arg("closed_loop"), py::arg("cache"));
 }
 
 }  // namespace limber::python

@@ -129,6 +129,9 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
       check_period(law);
       replace_law(law, made.built);
     }
+    if (auto unstable = app::find_unstable_loop(scene, made.built)) {
+      made.built.warnings.push_back(std::move(*unstable));
+    }
     recorded->run = app::simulate_pictured(scene, std::move(made), cache, watch,
                                            {}, judges);
     const bool is_asked =

@@ -56,6 +56,9 @@ void add_all(File& file, const LinearRecord& record) {
   file.add("u0", values_of(model.inputs));
   file.add("y0", values_of(model.outputs));
   file.add("time", MatrixX::Constant(1, 1, record.time));
+  if (record.period > 0.0) {
+    file.add("period", MatrixX::Constant(1, 1, record.period));
+  }
   file.add("axes_angular_velocity", column(record.axes_angular_velocity));
   if (!record.hankel.empty()) {
     file.add("hankel_singular_values", column(record.hankel));

@@ -14,6 +14,8 @@ namespace limber::results {
 struct LinearRecord {
   dynamics::LinearModel model;
   double time = 0.0;  ///< of the reference [s]
+  /// Of a discrete model, z_(k+1) = A z_k + B du_k; 0: continuous [s].
+  double period = 0.0;
   std::vector<double> axes_angular_velocity{0.0, 0.0, 0.0};  ///< [rad/s]
   /// Of a truncated model; else empty [output's / input's].
   std::vector<double> hankel;

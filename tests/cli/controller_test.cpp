@@ -206,6 +206,34 @@ TEST_F(AController, IsRefusedBeforeTheRunWithWhatIsWrong) {
                  "given twice");
 }
 
+// The loop is stable if and only if T < 2 I / kd = 8 ms (Jury's criterion); of
+// the halves of 20 ms the first one below is 5 ms.
+TEST_F(AController, OfAnUnstableLoopIsNamedWithAPeriodThatIsStable) {
+  const std::string gains =
+      "--set controller.pd.proportional=300 --set controller.pd.derivative=100 "
+      "--set controller.pd.limits=[-5,5] --set time.output_interval=0.1 ";
+  const json wild = run(gains);
+  EXPECT_THAT(errors_, HasSubstr("controller 'pd' (joint 'hinge', period 0.02 "
+                                 "s): the sampled loop is unstable at 25 Hz"));
+  EXPECT_THAT(errors_, HasSubstr("with a period of 0.005 s it is stable"));
+  EXPECT_THAT(errors_,
+              HasSubstr("its output alternates between its limits, -5 and 5"));
+  const json calm =
+      run(gains + "--set controller.pd.period=0.005 --set time.duration=5");
+  EXPECT_THAT(errors_, Not(HasSubstr("unstable")));
+  EXPECT_LT(std::abs(calm["probes"]["angle.q"]["final"].get<double>()), 1e-5);
+  (void)run(gains + "--set controller.pd.period=0.0079");
+  EXPECT_THAT(errors_, Not(HasSubstr("unstable")));
+  (void)run(gains + "--set controller.pd.period=0.0081");
+  EXPECT_THAT(errors_, HasSubstr("unstable"));
+}
+
+TEST_F(AController, WithAWrongSignIsUnstableAtEveryPeriod) {
+  (void)run(
+      "--set controller.pd.proportional=-3 --set controller.pd.derivative=-1");
+  EXPECT_THAT(errors_, HasSubstr("makes it stable: check the signs and sizes"));
+}
+
 TEST_F(AController, ThatChangedIsNamedWhenARunIsResumed) {
   text_.replace(text_.find("duration = 1.0"), 14, "duration = 4000.0");
   place_.write("s.toml", text_);

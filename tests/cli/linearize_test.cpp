@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const char* const kRobot = R"(<robot name='r'><link name='world'/>
 <link name='rotor'><inertial><mass value='2'/><inertia ixx='0.3' iyy='0.3'
@@ -140,6 +142,50 @@ TEST_F(Linearize, TellsAFullDiskForEveryKindOfFile) {
     std::filesystem::create_symlink("/dev/full", place_.folder() / name);
     expect_refused("-o " + name, "is the disk full");
   }
+}
+
+// The double integrator with a held force: poles of magnitude sqrt(1 + kp T^2 /
+// (2 I)) at an angle of about T sqrt(kp / I), kp / I = 15 1/s^2.
+TEST_F(Linearize, ClosesTheLoopsAsADiscreteModel) {
+  const json model = read("--closed-loop");
+  EXPECT_EQ(model["period"], json::parse("[[0.02]]"));
+  EXPECT_THAT(model["input_names"].get<std::vector<std::string>>(),
+              ElementsAre("spin", "pd.reference"));
+  EXPECT_EQ(model["A"].size(), 17U);  // 12, the input, its slope, 3 of the law
+  const double growth =
+      0.5 * std::log1p(0.5 * 15.0 * 0.02 * 0.02) / 0.02 / std::log(10.0);
+  EXPECT_THAT(errors_,
+              HasSubstr(fmt::format("controller 'pd' (joint 'hinge', period "
+                                    "0.02 s): the sampled loop is unstable at "
+                                    "{:.3g} Hz, growing tenfold in {:.2g} s",
+                                    std::sqrt(15.0) / (2.0 * std::acos(-1.0)),
+                                    1.0 / growth)));
+  EXPECT_THAT(out_, HasSubstr("from sample to sample: 17 states"));
+  EXPECT_THAT(out_, Not(HasSubstr("open loops")));
+  expect_refused("-o no.mat --closed-loop --states 4", "leave out");
+  expect_refused("-o no.mat --closed-loop --inputs pd", "leave out");
+}
+
+TEST_F(Linearize, RefusesToCloseWhatIsNoLinearLoop) {
+  const std::string text = kScenario;
+  // Energies are quadratic in small motion.
+  place_.write("s.toml",
+               text +
+                   "[[probe]]\nname = 'hinge_energy'\ncoupler = 'hinge'\n"
+                   "quantity = 'energy'\n");
+  expect_refused(
+      "-o no.mat --closed-loop --set "
+      "controller.pd.measures=hinge_energy.energy",
+      "controller 'pd' cannot be in a linear closed loop: "
+      "'hinge_energy.energy', which it measures, has no linear model");
+  const std::string drive = text.substr(
+      text.find("[[drive]]"), text.find("[[load]]") - text.find("[[drive]]"));
+  std::string open = text;
+  open.erase(open.find(drive), drive.size());
+  open.erase(open.rfind("[[probe]]"));
+  place_.write("s.toml", open);
+  expect_refused("-o no.mat --closed-loop",
+                 "a closed loop needs a [[controller]]; there is none");
 }
 
 TEST_F(Linearize, ReducesToTheStatesThatMatter) {

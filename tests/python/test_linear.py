@@ -99,6 +99,21 @@ def test_it_is_about_an_equilibrium_or_a_time_of_the_run(sled):
     assert any("0.25 s is no steady motion" in text for text in late.warnings)
 
 
+def test_the_closed_loop_has_the_poles_of_the_sampled_double_integrator(rotor, tmp_path):
+    model = limber.linearize(rotor, closed_loop=True)
+    h, inertia = 0.02, 0.4
+    step = numpy.array([0.5 * h**2, h]) / inertia
+    closed = numpy.array([[1.0, h], [0.0, 1.0]]) - numpy.outer(step, [3.0, 1.2])
+    poles = numpy.linalg.eigvals(model.A)
+    for pole in numpy.linalg.eigvals(closed):
+        assert numpy.abs(poles - pole).min() < 1e-9
+    assert model.period == model.to_scipy().dt == h and model.open_loops == []
+    assert model.input_names == ["pd.reference"]
+    model.save(tmp_path / "m.npz")
+    assert numpy.load(tmp_path / "m.npz")["period"] == h
+    assert limber.linearize(rotor).period is None
+
+
 def test_matrices_share_the_memory_of_the_model_and_keep_it(rotor):
     model = limber.linearize(limber.load(rotor))
     for name in "ABCD":

@@ -29,6 +29,7 @@ struct LinearizeOptions {
   std::string file;
   scene::LinearSelection selection;
   int states = 0;  ///< 0: all
+  bool closes_loops = false;
   std::string cache;
   bool json = false;
 };
@@ -36,7 +37,7 @@ struct LinearizeOptions {
 LinearRun find_linear_run(const LinearizeOptions& options) {
   results::check_linear_model_ending(options.file);
   const LinearRequest request = {parse_reference(options.at), options.selection,
-                                 options.states};
+                                 options.states, options.closes_loops};
   const scene::Scene scene = load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   const Progress progress = make_progress_bar();
@@ -69,6 +70,7 @@ void print_linear_json(const LinearizeOptions& options,
   json["outputs"] = list_signals(record.model.outputs);
   json["axes_angular_velocity"] = record.axes_angular_velocity;
   json["open_loops"] = found.linear.open_loops;
+  if (record.period > 0.0) json["period"] = record.period;
   if (found.truncated) {
     json["states_kept"] = found.truncated->kept;
     json["hankel_singular_values"] = record.hankel;
@@ -134,6 +136,12 @@ void print_linear_model(const LinearizeOptions& options,
         "({:.6g}, {:.6g}, {:.6g}) rad/s\n",
         w.x(), w.y(), w.z());
   }
+  if (record.period > 0.0) {
+    fmt::print(
+        "with its controllers, from sample to sample: {} states, period {:g} "
+        "s\n",
+        record.model.states.size(), record.period);
+  }
   print_signals("input", record.model.inputs);
   print_signals("output", record.model.outputs);
   if (!found.linear.open_loops.empty()) {
@@ -190,6 +198,9 @@ void add_linearize(CLI::App& app, Action& action) {
       ->add_option("--states", options->states,
                    "Reduce to so many states by balanced truncation")
       ->check(make_positive());
+  command->add_flag("--closed-loop", options->closes_loops,
+                    "With the controllers: a discrete model, from sample to "
+                    "sample");
   add_fidelity(*command, options->fidelity);
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);

@@ -14,6 +14,7 @@
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/scene/build/build_system.hpp"
+#include "limber/scene/control/closed_loop.hpp"
 
 namespace limber::app {
 namespace {
@@ -96,6 +97,29 @@ void truncate(int states, LinearRun& run) {
       left, states));
 }
 
+void close_loops(const LinearRequest& request,
+                 const dynamics::SystemModel& model, LinearRun& run) {
+  const scene::LinearSelection& selection = request.selection;
+  if (!selection.inputs.empty() || !selection.outputs.empty() ||
+      request.states > 0) {
+    throw InputError(
+        "the closed loop has all inputs, outputs and states; leave out their "
+        "selection and number");
+  }
+  if (model.controllers.empty()) {
+    throw InputError("a closed loop needs a [[controller]]; there is none");
+  }
+  const scene::ClosedLoop loop = scene::find_closed_loop(model, run.linear);
+  dynamics::SampledLoop sampled(*loop.plant, loop.controllers);
+  run.record.model = sampled.find_model();
+  run.record.period = sampled.period();
+  if (const auto unstable = sampled.find_instability()) {
+    run.record.warnings.push_back(
+        scene::describe_instability(model, loop, *unstable));
+  }
+  run.linear.open_loops.clear();
+}
+
 }  // namespace
 
 std::variant<Reference, double> parse_reference(const std::string& text) {
@@ -124,7 +148,11 @@ LinearRun linearise_scene(const scene::Scene& scene,
   run.notes = built.notes;
   add_linear_warnings(reference.where, run);
   run.record.model = run.linear.model;
-  if (request.states > 0) truncate(request.states, run);
+  if (request.closes_loops) {
+    close_loops(request, built.model, run);
+  } else if (request.states > 0) {
+    truncate(request.states, run);
+  }
   const Vector3& w = run.linear.system.axes.w_W;
   run.record.axes_angular_velocity = {w.x(), w.y(), w.z()};
   run.record.time = reference.state.t;

@@ -22,6 +22,9 @@ struct LinearRequest {
   std::variant<Reference, double> at = Reference::start;
   scene::LinearSelection selection = {};
   int states = 0;  ///< after balanced truncation; 0: all, without it
+  /// With the controllers, as a discrete model (dynamics::SampledLoop), which
+  /// has all inputs, outputs and states.
+  bool closes_loops = false;
 };
 
 /// "start", "equilibrium", or a time [s]. @throws InputError for another text.

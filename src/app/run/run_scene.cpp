@@ -22,6 +22,7 @@
 #include "limber/dynamics/simulation/tolerance_loop.hpp"
 #include "limber/results/energy_audit.hpp"
 #include "limber/scene/build/build_system.hpp"
+#include "limber/scene/control/closed_loop.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
 
 namespace limber::app {
@@ -216,6 +217,13 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   return run;
 }
 
+std::optional<std::string> find_unstable_loop(const scene::Scene& scene,
+                                              const scene::BuiltScene& built) {
+  return scene::describe_unstable_loop(
+      scene.scenario, built.model, built.initial, built.probes,
+      built.settings.end_time - built.initial.t);
+}
+
 double repeat_timing(const Run& run, const Progress& progress) {
   results::History history;
   dynamics::SimulationStatistics statistics;
@@ -227,8 +235,17 @@ double repeat_timing(const Run& run, const Progress& progress) {
 Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
               const CheckpointPlan& checkpoints) {
   const Progress progress = watch_signals(make_progress_bar());
-  Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
-                           checkpoints, true);
+  PicturedScene made = build_pictured(scene, make_reducer(progress), cache,
+                                      make_full_maker(progress));
+  warn_of_unused_cache(cache, made.built);
+  const auto unstable = find_unstable_loop(scene, made.built);
+  if (unstable) {
+    clear_progress_bar();
+    print_warnings({*unstable});
+  }
+  Run run = simulate_pictured(scene, std::move(made), cache, progress,
+                              checkpoints, true);
+  if (unstable) run.printed_warnings.push_back(*unstable);
   clear_progress_bar();
   print_more_notes(scene, run.built.notes);
   std::vector<std::string> warnings = run.built.warnings;

@@ -4,6 +4,8 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "limber/app/console/json.hpp"
 #include "limber/app/reports/error_table.hpp"
@@ -69,6 +71,11 @@ struct Run {
 [[nodiscard]] Run run_scene(const scene::Scene& scene,
                             const std::filesystem::path& cache,
                             const CheckpointPlan& checkpoints = {});
+
+/// Controllers whose sampled loop is unstable about the start, as a warning
+/// (scene::describe_unstable_loop).
+[[nodiscard]] std::optional<std::string> find_unstable_loop(
+    const scene::Scene& scene, const scene::BuiltScene& built);
 
 /// Wall time of simulating the run again, outputs included [s].
 [[nodiscard]] double repeat_timing(const Run& run, const Progress& progress);

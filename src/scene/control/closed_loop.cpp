@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/scene/control/closed_loop.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <variant>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/control/pid_controller.hpp"
+#include "limber/dynamics/control/saturation_observer.hpp"
+
+namespace limber::scene {
+namespace {
+
+using dynamics::LoopController;
+using dynamics::PidController;
+using dynamics::SampledLoop;
+
+constexpr Eigen::Index kMostStates = 600;
+constexpr double kShortest = 1.0 / 64.0;  // of the periods
+constexpr double kVisibleGrowth = 10.0;   // over a run
+
+// -1: none.
+Eigen::Index find_row(const std::vector<dynamics::LinearSignal>& signals,
+                      const std::string& name) {
+  const auto found =
+      std::find_if(signals.begin(), signals.end(),
+                   [&](const auto& signal) { return signal.name == name; });
+  return found == signals.end() ? -1 : found - signals.begin();
+}
+
+// Of the controllers' input `written`.
+dynamics::LoopInput find_loop_input(const dynamics::LinearSystem& system,
+                                    const dynamics::Input& input, int written) {
+  const auto& inputs = system.inputs;
+  const auto value =
+      std::find_if(inputs.begin(), inputs.end(),
+                   [&](const auto& one) { return one.written == written; });
+  LIMBER_EXPECT(value != inputs.end());
+  dynamics::LoopInput found{value - inputs.begin(), -1, input.hold};
+  // Its rate follows, if anything depends on it (find_linear_inputs).
+  const auto next = value + 1;
+  if (next != inputs.end() && next->name == value->name + ".rate") {
+    found.rate = found.value + 1;
+  }
+  return found;
+}
+
+const PidController& pid_of(const dynamics::ControllerModel& controller) {
+  const auto* pid = dynamic_cast<const PidController*>(controller.law.get());
+  LIMBER_EXPECT(pid != nullptr);
+  return *pid;
+}
+
+// Why a controller cannot be in a linear loop; empty if it can.
+std::string find_obstacle(const dynamics::ControllerModel& controller,
+                          const LinearScene& linear) {
+  if (dynamic_cast<const PidController*>(controller.law.get()) == nullptr) {
+    return "it is a function, not a linear law";
+  }
+  for (const dynamics::Measurement& measured : controller.measures) {
+    if (find_row(linear.model.outputs, measured.name) < 0) {
+      return fmt::format("'{}', which it measures, has no linear model",
+                         measured.name);
+    }
+  }
+  return "";
+}
+
+LoopController make_loop_controller(const dynamics::SystemModel& model,
+                                    const dynamics::ControllerModel& own,
+                                    const LinearScene& linear) {
+  const std::string obstacle = find_obstacle(own, linear);
+  if (!obstacle.empty()) {
+    throw InputError(
+        fmt::format("controller '{}' cannot be in a linear closed loop: {}",
+                    own.name, obstacle));
+  }
+  const PidController& pid = pid_of(own);
+  LoopController made{own.name, own.period, own.offset, pid.linearise(),
+                      {},       {},         {}};
+  for (const dynamics::Measurement& measured : own.measures) {
+    made.measures.push_back(find_row(linear.model.outputs, measured.name));
+  }
+  for (const int input : own.writes) {
+    made.writes.push_back(
+        find_loop_input(linear.system, model.inputs[index(input)], input));
+  }
+  const auto* follows =
+      std::get_if<joints::InputSignal>(&pid.parameters().reference.base);
+  if (follows != nullptr) {
+    made.reference = {
+        find_loop_input(linear.system, model.inputs[index(follows->input)],
+                        follows->input)
+            .value,
+        follows->factor};
+  }
+  return made;
+}
+
+joints::ScalarLaw without_dry(const joints::ScalarLaw& law) {
+  const auto* friction = std::get_if<joints::Friction>(&law);
+  if (friction == nullptr) return law;
+  joints::Friction::Parameters parameters = friction->parameters();
+  parameters.coulomb = 0.0;
+  return joints::Friction(parameters);
+}
+
+// Dry friction at rest is a large damper, which hides an unstable loop.
+dynamics::SystemModel without_dry_friction(dynamics::SystemModel model) {
+  for (dynamics::Coupler& coupler : model.couplers) {
+    const auto* joint = std::get_if<joints::Joint>(&coupler.law);
+    if (joint == nullptr) continue;
+    joints::Joint::Parameters parameters = joint->parameters();
+    for (joints::JointElement& element : parameters.elements) {
+      element.law = without_dry(element.law);
+    }
+    coupler.law = joints::Joint(parameters.hold, parameters.coordinates,
+                                parameters.elements);
+  }
+  for (dynamics::Transmission& line : model.transmissions) {
+    for (joints::ScalarLaw& law : line.laws) law = without_dry(law);
+  }
+  return model;
+}
+
+// The same controllers with other periods; a delay stays as long.
+std::vector<LoopController> change_periods(
+    const dynamics::SystemModel& model, std::vector<LoopController> controllers,
+    const std::vector<std::size_t>& changed, double factor) {
+  for (const std::size_t i : changed) {
+    dynamics::PidParameters parameters =
+        pid_of(model.controllers[i]).parameters();
+    parameters.period *= factor;
+    parameters.delay = static_cast<std::size_t>(
+        std::lround(static_cast<double>(parameters.delay) / factor));
+    controllers[i].period = parameters.period;
+    controllers[i].law = PidController(parameters).linearise();
+  }
+  return controllers;
+}
+
+// Two digits, rounded down.
+double round_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::floor(value / unit * (1.0 + 1e-12)) * unit;
+}
+
+// The longest of the halves of the period that is stable; rounded, unless a
+// delay is a multiple of it.
+std::optional<double> find_stable_period(
+    const dynamics::SystemModel& model, const ClosedLoop& loop,
+    const std::vector<std::size_t>& changed) {
+  const double period = loop.controllers[changed.front()].period;
+  const bool has_delay =
+      std::any_of(changed.begin(), changed.end(), [&](std::size_t i) {
+        return pid_of(model.controllers[i]).parameters().delay > 0;
+      });
+  const auto is_stable = [&](double to) {
+    SampledLoop trial(*loop.plant, change_periods(model, loop.controllers,
+                                                  changed, to / period));
+    return !trial.find_instability();
+  };
+  for (double factor = 0.5; factor >= kShortest; factor *= 0.5) {
+    const double to = has_delay ? factor * period : round_down(factor * period);
+    try {
+      if (is_stable(to)) return to;
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch)
+      // No common period with the others.
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describe_loops(const dynamics::SystemModel& model,
+                           const std::vector<std::size_t>& loops) {
+  std::vector<std::string> names;
+  for (const std::size_t i : loops) {
+    const dynamics::ControllerModel& own = model.controllers[i];
+    names.push_back(fmt::format(
+        "'{}' ({}, period {:.4g} s)", own.name,
+        dynamics::name_followers(model, own.writes.front()), own.period));
+  }
+  return fmt::format("controller{} {}", names.size() == 1 ? "" : "s",
+                     fmt::join(names, " and "));
+}
+
+std::string describe_remedy(const dynamics::SystemModel& model,
+                            const ClosedLoop& loop,
+                            const SampledLoop::Instability& found) {
+  if (const auto stable = find_stable_period(model, loop, found.loops)) {
+    return fmt::format("with a period of {:.6g} s it is stable", *stable);
+  }
+  std::vector<std::size_t> all(loop.controllers.size());
+  std::iota(all.begin(), all.end(), 0U);
+  if (const auto stable = find_stable_period(model, loop, all)) {
+    return fmt::format("with all periods {:.3g} times as long it is stable",
+                       *stable / loop.controllers.front().period);
+  }
+  return fmt::format(
+      "no period down to {:.2g} s makes it stable: check the signs and sizes "
+      "of its gains, filter and delay",
+      kShortest * loop.controllers[found.loops.front()].period);
+}
+
+}  // namespace
+
+ClosedLoop find_closed_loop(const dynamics::SystemModel& model,
+                            const LinearScene& linear) {
+  ClosedLoop loop;
+  loop.plant = std::make_unique<const dynamics::LinearModel>(linear.model);
+  for (const dynamics::ControllerModel& c : model.controllers) {
+    loop.controllers.push_back(make_loop_controller(model, c, linear));
+  }
+  return loop;
+}
+
+std::string describe_instability(const dynamics::SystemModel& model,
+                                 const ClosedLoop& loop,
+                                 const SampledLoop::Instability& found) {
+  return fmt::format(
+      "{}: the sampled loop is unstable at {:.3g} Hz, growing tenfold in "
+      "{:.2g} "
+      "s; {}",
+      describe_loops(model, found.loops), found.frequency,
+      std::log(10.0) / found.growth, describe_remedy(model, loop, found));
+}
+
+std::optional<std::string> describe_unstable_loop(
+    const Scenario& scenario, const dynamics::SystemModel& model,
+    const dynamics::SystemState& state, const std::vector<Probe>& probes,
+    double duration) {
+  if (model.controllers.empty() || !model.full_bodies.empty()) {
+    return std::nullopt;
+  }
+  try {
+    const dynamics::SystemModel smooth = without_dry_friction(model);
+    const ClosedLoop loop =
+        find_closed_loop(smooth, linearise(scenario, smooth, state, probes));
+    if (loop.plant->A.rows() > kMostStates) return std::nullopt;
+    SampledLoop sampled(*loop.plant, loop.controllers);
+    const auto found = sampled.find_instability();
+    if (!found || found->growth * duration < std::log(kVisibleGrowth)) {
+      return std::nullopt;
+    }
+    return describe_instability(smooth, loop, *found) +
+           " (linear, about the start, without dry friction and limits)";
+  } catch (const InputError&) {
+    return std::nullopt;  // no linear model about this state
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace limber::scene
