@@ -148,12 +148,10 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
   }
   std::string plot = "plot ";
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
-    if (!panel.series[s].error) continue;
-    plot += plot_error(fmt::format("d{}_{}", p, s), panel.series[s], s);
-  }
-  for (std::size_t s = 0; s < panel.series.size(); ++s) {
-    if (!panel.series[s].band) continue;
-    plot += plot_band(fmt::format("d{}_{}", p, s), s);
+    const Series& series = panel.series[s];
+    const std::string block = fmt::format("d{}_{}", p, s);
+    if (series.error) plot += plot_error(block, series, s);
+    if (series.band) plot += plot_band(block, s);
   }
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     plot += fmt::format("{}$d{}_{} using 1:2 with lines {} title {}",
