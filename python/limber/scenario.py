@@ -213,6 +213,15 @@ class Scenario:
             warnings.warn(text, LimberWarning, stacklevel=2)
         return found
 
+    def check(self, cache=None):
+        """Masses, frequencies and cost without a run, as ``limber check --json``.
+
+        Returns a dictionary: "mass" [kg], "bodies", "joints" and
+        "frequencies_hz" [Hz], "cost" (seconds, bytes), "silent" (parts that
+        cannot answer), "choices" and more.
+        """
+        return _core.check(self._scene, _path(cache))
+
     def linearize(self, at="start", inputs=None, outputs=None, states=None,
                   closed_loop=False, cache=None):
         """Linear model (A, B, C, D) of its system, as ``limber linearize``.

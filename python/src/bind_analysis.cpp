@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the commands static, frequencies, advise and compare find, of a
+// What the commands static, frequencies, advise, check and compare find, of a
 // loaded scene.
 #include "arrays.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
 #include "limber/app/reports/frequency_report.hpp"
 #include "limber/app/reports/levels.hpp"
+#include "limber/app/run/scene_check.hpp"
 #include "limber/app/run/static_run.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -53,6 +54,13 @@ py::object advise(const scene::Scene& scene, const fs::path& cache) {
     return app::advise_scene(scene, cache, watch);
   });
   return to_python(to_json(advice));
+}
+
+py::object check(const scene::Scene& scene, const fs::path& cache) {
+  const app::SceneCheck found = run_alone([&](const Progress& watch) {
+    return app::check_scene(scene, cache, watch);
+  });
+  return to_python(to_json(found));
 }
 
 app::Axes read_axes(const py::dict& wish) {
@@ -115,6 +123,7 @@ void bind_analysis(py::module_& m) {
   m.def("find_frequencies", &find_frequencies, py::arg("scene"),
         py::arg("count"), py::arg("cache"));
   m.def("advise", &advise, py::arg("scene"), py::arg("cache"));
+  m.def("check", &check, py::arg("scene"), py::arg("cache"));
   m.def("compare", &compare, py::arg("scene"), py::arg("wish"),
         py::arg("cache"));
 }

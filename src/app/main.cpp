@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   return run_command_line(argc, argv, [argv](CLI::App& app, Action& action) {
     add_run(app, action);
     add_advise(app, action);
+    add_check(app, action);
     add_compare(app, action);
     add_study(app, action);
     add_verify(app, action,

@@ -221,6 +221,13 @@ def test_advise_is_that_of_the_command(sled):
         limber.load(sled).advise()
 
 
+def test_check_is_that_of_the_command(sled):
+    told = json.loads(call("check", sled, "--json"))
+    found = limber.load(sled).check()
+    for key in ("mass", "frequencies_hz", "outputs", "silent", "bodies"):
+        assert found[key] == told[key]
+
+
 def test_static_frequencies_and_compare_are_those_of_the_commands(sled):
     scenario = limber.load(sled)
     found = scenario.frequencies(count=1)

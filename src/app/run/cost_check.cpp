@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/cost_check.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+
+#include "limber/common/duration.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/results/results_file.hpp"
+#include "limber/scene/probes/followed_probes.hpp"
+
+namespace limber::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMeasured = 0.5;  // wall time of the first steps [s]
+
+/// Removed by the destructor.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::error_code error;
+    std::string name =
+        (fs::temp_directory_path(error) / "limber-check-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw InputError("no temporary folder can be made; set TMPDIR");
+    }
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// The start, as often as there are outputs.
+results::History repeat_start(const scene::BuiltScene& built, int outputs) {
+  results::History history;
+  for (const scene::Probe& probe : built.probes) {
+    for (const auto& column : scene::column_names(probe)) {
+      history.columns.push_back({column.name, column.unit});
+    }
+  }
+  const std::vector<double> row =
+      scene::evaluate_all(built.probes, built.model, built.initial);
+  for (int i = 0; i < outputs; ++i) {
+    history.times.push_back(built.initial.t + i);
+    history.probe_rows.push_back(row);
+    history.states.push_back(built.initial);
+    history.states.back().t = history.times.back();
+    history.energies.push_back(
+        dynamics::calc_energy(built.model, built.initial));
+  }
+  return history;
+}
+
+double measure_file(const PicturedScene& scene, int outputs) {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "results.h5";
+  results::write_results(file, scene.built.model,
+                         repeat_start(scene.built, outputs), &scene.scenery);
+  return static_cast<double>(fs::file_size(file));
+}
+
+/// Of results.h5 with all outputs, from those of two outputs and many.
+std::size_t predict_file(const PicturedScene& scene) {
+  constexpr int kMany = 66;
+  constexpr int kFew = 2;
+  const scene::BuiltScene& built = scene.built;
+  const auto outputs = static_cast<double>(built.settings.output_times.size());
+  const double least = measure_file(scene, kFew);
+  const double each = (measure_file(scene, kMany) - least) / (kMany - kFew);
+  std::size_t columns = 0;
+  for (const scene::Probe& probe : built.probes) {
+    columns += scene::column_names(probe).size();
+  }
+  const std::vector<double> edges = choose_envelope_edges(
+      built.initial.t, built.settings.output_times, built.settings.end_time);
+  const std::size_t envelopes =
+      sizeof(double) * edges.size() * (1 + 2 * columns);
+  return static_cast<std::size_t>(least +
+                                  std::max(outputs - kFew, 0.0) * each) +
+         envelopes;
+}
+
+/// Of a state and its row in a history.
+std::size_t count_bytes(const dynamics::SystemState& state) {
+  const auto numbers = state.eta.size() + state.etadot.size() +
+                       state.maxwell.size() + state.u_H.size() +
+                       state.udot_H.size();
+  return sizeof state + sizeof(dynamics::EnergyBalance) +
+         sizeof(double) * static_cast<std::size_t>(numbers) +
+         sizeof(dynamics::BodyState) * state.bodies.size() +
+         sizeof(joints::CouplerMemory) * state.memory.size();
+}
+
+std::size_t find_largest_memory() {
+  rusage used = {};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<std::size_t>(used.ru_maxrss) * 1024;
+}
+
+/// A point of the measured steps: fraction of the run, and wall time.
+struct Progressed {
+  double fraction = 0.0;
+  double seconds = 0.0;  // [s]
+};
+
+}  // namespace
+
+CostCheck check_cost(const PicturedScene& scene) {
+  const scene::BuiltScene& built = scene.built;
+  dynamics::SimulationSettings settings = built.settings;
+  settings.passes = dynamics::TolerancePasses::one;
+  CostCheck cost;
+  dynamics::SystemState state = built.initial;
+  dynamics::SimulationStatistics statistics;
+  dynamics::RunRecord record;
+  const Clock::time_point start = Clock::now();
+  Progressed middle;
+  Progressed last;
+  const Progress watch = [&](std::string_view, double fraction) {
+    last = {fraction, seconds_since(start)};
+    if (last.seconds <= 0.5 * kMeasured) middle = last;
+    if (last.seconds > kMeasured && fraction < 1.0) {
+      throw dynamics::Interrupted("measured");
+    }
+  };
+  const dynamics::Observer observer = [&](const dynamics::SystemState& now,
+                                          const dynamics::EnergyBalance&) {
+    static_cast<void>(scene::evaluate_all(built.probes, built.model, now));
+  };
+  try {
+    dynamics::simulate(built.model, state, settings, observer, watch,
+                       statistics, {}, scene::follow(built.probes, built.model),
+                       record);
+  } catch (const dynamics::Interrupted&) {  // as asked
+  } catch (const NumericalError& error) {
+    cost.failure = error.what();
+  } catch (const InputError& error) {
+    cost.failure = error.what();
+  }
+  cost.steps = statistics.steps;
+  cost.time = state.t - built.initial.t;
+  cost.seconds = statistics.seconds;
+  if (last.fraction >= 1.0) {
+    cost.run_seconds = cost.seconds;
+  } else if (cost.failure.empty() && last.fraction > middle.fraction) {
+    cost.run_seconds = last.seconds + (1.0 - last.fraction) *
+                                          (last.seconds - middle.seconds) /
+                                          (last.fraction - middle.fraction);
+  }
+  cost.file_bytes = predict_file(scene);
+  cost.memory_bytes =
+      find_largest_memory() +
+      built.settings.output_times.size() * count_bytes(built.initial);
+  return cost;
+}
+
+}  // namespace limber::app

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/scene_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/reports/silent_parts.hpp"
+#include "limber/app/run/cost_check.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/analysis/coupler_frequencies.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/joints/pairs/touching.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
+
+namespace limber::app {
+namespace {
+
+BodyCheck check_body(const dynamics::BodyModel& body) {
+  BodyCheck check{body.name, body.fidelity, body.mass, body.modes, {}};
+  if (body.modes == 0) return check;
+  const auto to_hertz = [](double lambda) {
+    return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi);
+  };
+  const VectorX lambda = flexbody::rest_stiffness(body.elasticity);
+  check.frequencies = {to_hertz(lambda.minCoeff()),
+                       to_hertz(lambda.maxCoeff())};
+  return check;
+}
+
+void check_frequencies(const scene::BuiltScene& built, SceneCheck& check) {
+  const dynamics::SystemModel& model = built.model;
+  const Eigen::Index unknowns =
+      6 * std::ssize(model.bodies) + model.modal_count;
+  if (!model.full_bodies.empty() || unknowns > SceneCheck::kMostUnknowns) {
+    return;
+  }
+  const auto count =
+      std::ssize(model.couplers) + std::ssize(model.transmissions);
+  const dynamics::SmallMotion motion =
+      dynamics::find_small_motion(model, built.initial);
+  if (motion.size() == 0) return;
+  const VectorX fastest = dynamics::find_coupler_frequencies(motion, count);
+  Eigen::Index i = 0;
+  for (const dynamics::Coupler& coupler : model.couplers) {
+    check.joints.push_back({coupler.name, fastest[i++]});
+  }
+  for (const dynamics::Transmission& line : model.transmissions) {
+    check.joints.push_back({line.name, fastest[i++]});
+  }
+  check.frequencies = dynamics::find_natural_frequencies(model, built.initial);
+}
+
+void check_contacts(const scene::BuiltScene& built, SceneCheck& check) {
+  for (const dynamics::Pair& pair : built.model.pairs) {
+    const joints::Touching* law = pair.law->touching();
+    if (law == nullptr) continue;
+    const dynamics::PairMotion motion =
+        dynamics::find_pair_motion(built.model, pair, built.initial);
+    joints::PairResponse scratch = dynamics::make_response(built.model, pair);
+    const joints::PairTouch touch = law->find_touch(motion.bodies(), scratch);
+    const bool has_place = !touch.normal_W.isZero(0.0);
+    check.contacts.push_back(
+        {pair.name,
+         has_place ? -touch.depth : law->find_clearance(motion.bodies())});
+  }
+}
+
+bool has_stiffness(const dynamics::CouplerOptions& options) {
+  return options.translational_stiffness && options.rotational_stiffness;
+}
+
+void add_choices(const scene::Scene& scene, const scene::BuiltScene& built,
+                 SceneCheck& check) {
+  std::vector<std::string>& choices = check.choices;
+  if (check.is_tolerance_chosen) {
+    choices.push_back(fmt::format(
+        "tolerance {:.3g} m: 1e-4 of the smallest group's largest body, as the "
+        "scenario gives neither step nor tolerance",
+        check.settings.tolerance));
+  }
+  std::size_t joints = 0;
+  std::size_t unset = 0;
+  for (const scene::Joint& joint : scene.robot.joints) {
+    if (scene::merges(scene.robot, joint) ||
+        joint.kind == joints::JointKind::floating) {
+      continue;
+    }
+    ++joints;
+    if (!has_stiffness(joint.coupler)) ++unset;
+  }
+  if (unset > 0) {
+    choices.push_back(fmt::format(
+        "stiffness of {} of {} joints by their bodies, as it is not given: "
+        "{:g} "
+        "times that of a flexible side, or {:g} Hz of two rigid ones",
+        unset, joints, dynamics::kStiffnessRatio, dynamics::kRigidFrequency));
+  }
+  for (const dynamics::BodyModel& body : built.model.bodies) {
+    if (!body.reduced || !body.reduced->selection) continue;
+    choices.push_back(fmt::format("modes of '{}': {}", body.name,
+                                  summarize(*body.reduced->selection)));
+  }
+  choices.insert(choices.end(), built.notes.begin(), built.notes.end());
+}
+
+std::optional<double> find_stable_limit(const scene::BuiltScene& built) {
+  const dynamics::IntegratorKind scheme = built.settings.integrator;
+  if (traits_of(scheme).limit == dynamics::StepLimit::none) return std::nullopt;
+  const double step =
+      dynamics::find_stable_step(built.model, built.initial, scheme);
+  if (!std::isfinite(step)) return std::nullopt;
+  return step;
+}
+
+}  // namespace
+
+SceneCheck check_scene(const scene::Scene& scene,
+                       const std::filesystem::path& cache,
+                       const Progress& progress) {
+  const PicturedScene pictured = build_pictured(
+      scene, make_reducer(progress), cache, make_full_maker(progress));
+  const scene::BuiltScene& built = pictured.built;
+  SceneCheck check;
+  check.scenario = scene.scenario.file.string();
+  check.settings = built.settings;
+  check.start = built.initial.t;
+  check.is_tolerance_chosen =
+      scene.scenario.settings.tolerance == scene::kToleranceToChoose;
+  for (const dynamics::BodyModel& body : built.model.bodies) {
+    check.bodies.push_back(check_body(body));
+    check.mass += body.mass;
+  }
+  check_frequencies(built, check);
+  check_contacts(built, check);
+  check.stable_step = find_stable_limit(built);
+  check.silent = find_silent_parts(scene, built);
+  check.warnings = built.warnings;
+  add_choices(scene, built, check);
+  check.cost = check_cost(pictured);
+  if (!check.cost.failure.empty()) {
+    check.problems.push_back("the first steps fail: " + check.cost.failure);
+  }
+  return check;
+}
+
+}  // namespace limber::app
