@@ -16,7 +16,7 @@ from ._core import (
     ReducedBody, ScalarSpring, Signal, SimulationSettings, SimulationStatistics,
     Simulator, SineSignal, Sinusoid, StepSequence, SystemBuilder, SystemModel,
     SystemState, Table, TableSignal, TransmissionIndex, __version__, build_id,
-    calc_energy, find_equilibrium, find_frame_motion, find_natural_frequencies,
+    calc_energy, explain, find_equilibrium, find_frame_motion, find_natural_frequencies,
     make_shaper, make_state, read_body)
 from .body import reduce
 from .errors import (

@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
+#include "limber/app/reports/explanation.hpp"
 #include "limber/app/reports/frequency_report.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/scene_check.hpp"
@@ -61,6 +62,10 @@ py::object check(const scene::Scene& scene, const fs::path& cache) {
     return app::check_scene(scene, cache, watch);
   });
   return to_python(to_json(found));
+}
+
+py::object explain(const fs::path& folder) {
+  return to_python(app::explain(app::read_run_summary(folder)));
 }
 
 app::Axes read_axes(const py::dict& wish) {
@@ -124,6 +129,8 @@ void bind_analysis(py::module_& m) {
         py::arg("count"), py::arg("cache"));
   m.def("advise", &advise, py::arg("scene"), py::arg("cache"));
   m.def("check", &check, py::arg("scene"), py::arg("cache"));
+  m.def("explain", &explain, py::arg("folder"),
+        "What limited a run in this folder, as ``limber explain --json``.");
   m.def("compare", &compare, py::arg("scene"), py::arg("wish"),
         py::arg("cache"));
 }

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
     add_run(app, action);
     add_advise(app, action);
     add_check(app, action);
+    add_explain(app, action);
     add_compare(app, action);
     add_study(app, action);
     add_verify(app, action,

@@ -11,7 +11,7 @@
 #include "limber/common/files/sealed_file.hpp"
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
-#include "limber/dynamics/monitors/event_fields.hpp"
+#include "limber/dynamics/monitors/event.hpp"
 
 namespace limber::results {
 

@@ -228,6 +228,13 @@ def test_check_is_that_of_the_command(sled):
         assert found[key] == told[key]
 
 
+def test_explain_is_that_of_the_command(sled):
+    folder = sled.parent / "o"
+    call("run", sled, "--out", folder)
+    assert limber.explain(folder) == json.loads(
+        call("explain", folder, "--json"))
+
+
 def test_static_frequencies_and_compare_are_those_of_the_commands(sled):
     scenario = limber.load(sled)
     found = scenario.frequencies(count=1)

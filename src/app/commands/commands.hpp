@@ -9,6 +9,7 @@ namespace limber::app {
 void add_run(CLI::App& app, Action& action);
 void add_advise(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_explain(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_linearize(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);

@@ -60,7 +60,8 @@ Json to_json(const std::vector<Event>& events) {
     json.push_back(Json{{"time", event.time},
                         {"source", event.source},
                         {"what", event.what},
-                        {"rate", event.rate}});
+                        {"rate", event.rate},
+                        {"iterations", event.iterations}});
   }
   return json;
 }

@@ -148,6 +148,87 @@ Json summarize_selections(const Run& run) {
   return json;
 }
 
+// What determined the lengths of steps, and for which bodies and pairs.
+Json summarize_limits(const Run& run) {
+  const dynamics::StepRecord& steps = run.record.steps;
+  Json json{{"by", Json::array()},
+            {"bodies", Json::object()},
+            {"pairs", Json::object()}};
+  for (std::size_t i = 0; i < steps.causes.size(); ++i) {
+    const dynamics::StepRecord::Cause& cause = steps.causes[i];
+    if (cause.count == 0.0) continue;
+    json["by"].push_back(
+        {{"limit", to_string(static_cast<dynamics::StepCause>(i))},
+         {"count", cause.count},
+         {"time", cause.time},
+         {"shortest", cause.shortest}});
+  }
+  for (std::size_t b = 0; b < steps.of_body.size(); ++b) {
+    if (steps.of_body[b] == 0.0) continue;
+    json["bodies"][run.built.model.bodies[b].name] = steps.of_body[b];
+  }
+  for (std::size_t p = 0; p < steps.of_pair.size(); ++p) {
+    if (steps.of_pair[p] == 0.0) continue;
+    json["pairs"][run.built.model.pairs[p].name] = steps.of_pair[p];
+  }
+  return json;
+}
+
+// Estimates of the parts of the steps, such that their sum is what was
+// measured.
+Json summarize_times(const Run& run) {
+  const dynamics::StepTimes& times = run.record.times;
+  const double steps = times.contact + times.newton + times.monitors;
+  const double scale =
+      steps > 0.0
+          ? std::max(run.statistics.seconds - times.outputs, 0.0) / steps
+          : 0.0;
+  return Json{{"contact", scale * times.contact},
+              {"Newton", scale * times.newton},
+              {"monitors", scale * times.monitors},
+              {"outputs", times.outputs}};
+}
+
+// Links that touch others by a mesh.
+std::vector<std::string> find_meshed_links(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.robot.links.size(); ++i) {
+    const scene::Link& link = scene.robot.links[i];
+    const auto touches = [&](const scene::Toucher& body) {
+      return !body.is_obstacle && body.index == i;
+    };
+    const bool is_meshed =
+        link.flexible ||
+        std::any_of(link.collisions.begin(), link.collisions.end(),
+                    [](const scene::Collision& shape) {
+                      return std::holds_alternative<scene::MeshGeometry>(
+                          shape.geometry);
+                    });
+    if (is_meshed && std::any_of(scene.touching.begin(), scene.touching.end(),
+                                 [&](const scene::TouchingPair& pair) {
+                                   return touches(pair.A) || touches(pair.B);
+                                 })) {
+      names.push_back(link.name);
+    }
+  }
+  return names;
+}
+
+// Why the run ended early.
+void summarize_failure(const Run& run, Json& json) {
+  json["completed"] = run.failure == nullptr;
+  json["interrupted"] = false;
+  if (!run.failure) return;
+  try {
+    std::rethrow_exception(run.failure);
+  } catch (const dynamics::Interrupted& end) {
+    json["interrupted"] = true;
+    json["failure"] = end.what();
+  } catch (const std::exception& error) {
+    json["failure"] = error.what();
+  }
+}
+
 int count_modes(const Run& run) { return run.built.model.modal_count; }
 
 }  // namespace
@@ -262,7 +343,9 @@ Json summarize(const Run& run) {
   if (!settings.empty()) {
     json["settings"] = describe_settings(settings);
   }
-  json["completed"] = run.failure == nullptr;
+  summarize_failure(run, json);
+  json["reached"] = run.history.times.empty() ? 0.0 : run.history.times.back();
+  json["end_time"] = run.built.settings.end_time;
   json["bodies"] = run.built.model.bodies.size();
   json["modes"] = count_modes(run);
   const Json selections = summarize_selections(run);
@@ -272,9 +355,12 @@ Json summarize(const Run& run) {
   }
   json["couplers"] = run.built.model.couplers.size();
   json["modes_exact"] = run.statistics.exact_modes;
+  json["integrator"] = to_string(run.built.settings.integrator);
+  json["step"] = run.built.settings.step;
   json["steps"] = run.statistics.steps;
   json["newton_iterations"] = run.statistics.newton_iterations;
   json["steps_halved"] = run.statistics.halved_steps;
+  json["step_limits"] = summarize_limits(run);
   if (run.built.settings.tolerance > 0.0) {
     json["steps_rejected"] = run.statistics.rejected_steps;
     json["tolerance_passes"] = to_string(run.built.settings.passes);
@@ -291,12 +377,14 @@ Json summarize(const Run& run) {
   }
   json["seconds_offline"] = run.built.seconds_offline;
   json["seconds_online"] = run.statistics.seconds;
+  json["seconds_by_part"] = summarize_times(run);
   json["bodies_reduced"] = run.built.bodies_reduced;
   json["bodies_cached"] = run.built.bodies_cached;
   json["energy"] = summarize_energy(run.history, run.record.energy);
   json["events"] = to_json(run.history.events);
   if (!run.built.model.pairs.empty()) {
     json["contacts"] = to_json(run.record.contacts);
+    json["contact_meshes"] = find_meshed_links(run.scene);
   }
   json["probes"] = summarize_probes(run);
   if (run.scene.scenario.output.stress) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/records/fields.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {
@@ -16,9 +17,18 @@ struct Event {
   /// Rate of the triggering quantity: at a stop the speed of the joint [m/s or
   /// rad/s], at a latch that of the distance [m/s]; of a load 0.
   double rate = 0.0;
+  /// Number of times that the step which ends there was repeated to locate it;
+  /// 0: at the start, at a breakpoint, or at the end of a step that was not
+  /// cut.
+  int iterations = 0;
 
   bool operator==(const Event&) const = default;
 };
+
+constexpr auto fields_of(const Event*) {
+  return list_fields("event", "time [s]", "source", "what", "rate [m/s, rad/s]",
+                     "iterations");
+}
 
 /// Adds the times within (start, end) [s] at which loads start, jump or end,
 /// for a long history only the first and the last; and sorts all events by

@@ -52,6 +52,8 @@ class ImpactSteps {
   /// Accepts the step last asked about.
   void accept(double h);
 
+  /// Pair whose impacts shorten steps.
+  [[nodiscard]] std::size_t fastest() const { return fastest_; }
   /// Pair with which a step got more than the most parts, once.
   [[nodiscard]] std::optional<std::size_t> take_excess();
 

@@ -266,18 +266,23 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
     return;
   }
   ++cut_;
+  const std::size_t events = events_.size();
+  int iterations = 1;
   if (touch && touch->share == share) {
-    settle_touch(*touch, state, nominal_h);
-    return;
-  }
-  advance_to(share, state);
-  add_last();
-  if (crossing && crossing->share == share) {
-    pass(*crossing, state, nominal_h);
+    iterations = settle_touch(*touch, state, nominal_h);
   } else {
-    watch_.accept(state);
+    advance_to(share, state);
+    add_last();
+    if (crossing && crossing->share == share) {
+      pass(*crossing, state, nominal_h);
+    } else {
+      watch_.accept(state);
+    }
+    touches_.accept(before_, state);
   }
-  touches_.accept(before_, state);
+  for (std::size_t i = events; i < events_.size(); ++i) {
+    events_[i].iterations = iterations;
+  }
 }
 
 // A place of contact that appears deep between two bodies that were apart, as
@@ -326,10 +331,13 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
 // A step that ends deep in a contact, or after it, gives a poor estimate of its
 // beginning: shorter ones improve it, until one ends there. A step that ends
 // before the contact is accepted, and the next one continues.
-void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
-                                SystemState& state, double nominal_h) {
+// @returns the number of its repeats
+int EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
+                               SystemState& state, double nominal_h) {
   double share = crossing.share;
-  for (int i = 0; i < kMostRepeats && advance_to(share, state); ++i) {
+  int repeats = 0;
+  while (repeats < kMostRepeats && advance_to(share, state)) {
+    ++repeats;
     const double tolerance =
         touches_.find_tolerance(crossing.index, state, nominal_h);
     if (touches_.find_excess(crossing.index, state) <= tolerance) break;
@@ -346,6 +354,7 @@ void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
   if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
   watch_.accept(state);
   touches_.accept(before_, state);
+  return repeats;
 }
 
 void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {

@@ -73,6 +73,8 @@ class EventStepper {
   [[nodiscard]] std::optional<std::size_t> take_excess() {
     return impacts_.take_excess();
   }
+  /// The pair whose impacts shorten steps.
+  [[nodiscard]] std::size_t impact_pair() const { return impacts_.fastest(); }
   /// Which pairs touch.
   [[nodiscard]] TouchWatch& touches() { return touches_; }
 
@@ -112,8 +114,8 @@ class EventStepper {
   void check_deep_touch(std::size_t index, SystemState& state);
   void check_leave(std::size_t index, SystemState& state);
   void check_missed_touch(std::size_t index, SystemState& state);
-  void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
-                    double nominal_h);
+  int settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
+                   double nominal_h);
   bool advance_to(double share, SystemState& state);
   void add_last();
 

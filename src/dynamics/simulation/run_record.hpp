@@ -9,6 +9,7 @@
 #include "limber/dynamics/monitors/contact_record.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/monitors/step_record.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/observer.hpp"
 #include "limber/dynamics/simulation/simulation_statistics.hpp"
@@ -23,6 +24,8 @@ struct RunRecord {
   Envelopes envelopes;         ///< of the followed scalars
   EnergyRecord energy;
   std::vector<ContactRecord> contacts;  ///< in the order of time
+  StepRecord steps;
+  StepTimes times;
 };
 
 /// simulate() that also monitors scalars and energy at every step; `record` is

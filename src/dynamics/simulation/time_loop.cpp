@@ -10,7 +10,6 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
-#include "limber/dynamics/monitors/event_fields.hpp"
 #include "limber/dynamics/simulation/failure_diagnosis.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/system/interpolation.hpp"
@@ -77,7 +76,10 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       jumps_(make_flows(model)),
       within_(state),
       sound_(state),
-      kept_(Clock::now()) {}
+      kept_(Clock::now()) {
+  steps_.of_body.resize(model.bodies.size());
+  steps_.of_pair.resize(model.pairs.size());
+}
 
 Losses TimeLoop::losses() const {
   return {stepper_.totals().load_work, stepper_.totals().dissipated};
@@ -89,6 +91,7 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
           refreshed_solves_);
   stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
+  steps_.exchange_memory(archive);
   peaks_.exchange_memory(archive);
   audit_.exchange_memory(archive);
   contacts_.exchange_memory(archive);
@@ -228,6 +231,8 @@ void TimeLoop::tell(RunRecord& record) {
   peaks_.tell(record.peaks, record.places, record.envelopes);
   record.energy = audit_.find_energy();
   record.contacts = contacts_.find_records();
+  record.steps = steps_;
+  record.times = timer_.find_times();
   audit_.add_warnings(statistics_.warnings);
   contacts_.add_warnings(statistics_.warnings);
   if (const auto pair = stepper_.take_excess()) {
@@ -250,9 +255,8 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
     if (is_adaptive() && !has_started_) {
       control_.begin(find_first_step(model_, state, control_.allowed()));
     }
-    h_ = is_adaptive()
-             ? std::min(control_.propose(state, span), limit_free_step(state))
-             : span / static_cast<double>(parts_);
+    h_ = is_adaptive() ? plan_free_step(state, span).length
+                       : span / static_cast<double>(parts_);
     if (!has_started_) {
       const auto impulse = stepper_.start(state, h_);
       if (impulse) {
@@ -305,8 +309,10 @@ void TimeLoop::visit_within(const SystemState& begin, const SystemState& state,
 
 void TimeLoop::visit_output(const SystemState& state, const Losses& losses,
                             const Visit& visit) {
+  const StepTimer::Clock::time_point begin = StepTimer::Clock::now();
   visit(state, losses);
   ++visits_;
+  timer_.add_output(begin);
 }
 
 // Samples at the start, before the first step.

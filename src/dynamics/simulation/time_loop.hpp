@@ -12,6 +12,7 @@
 #include "limber/dynamics/monitors/energy_watch.hpp"
 #include "limber/dynamics/monitors/peak_watch.hpp"
 #include "limber/dynamics/monitors/step_audit.hpp"
+#include "limber/dynamics/monitors/step_record.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/controller_sampling.hpp"
@@ -104,7 +105,16 @@ class TimeLoop {
   [[nodiscard]] const Oscillation* find_oscillation(double t) const;
   [[nodiscard]] std::string describe_short_steps(
       const SystemState& state) const;
-  [[nodiscard]] double limit_free_step(const SystemState& state);
+  // The length of a step, and what determines it.
+  struct PlannedStep {
+    double length = 0.0;  // [s]
+    StepCause cause = StepCause::given;
+  };
+  [[nodiscard]] PlannedStep limit_free_step(const SystemState& state);
+  [[nodiscard]] PlannedStep plan_free_step(const SystemState& state,
+                                           double left);
+  StepCause record_step(const PlannedStep& planned, double length);
+  void time_contact(const SystemState& state, long solves);
   bool take_free_step(SystemState& state, const Visit& visit);
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);
@@ -151,6 +161,8 @@ class TimeLoop {
   WorkBudget budget_;
   SystemTerms terms_;  // at the start
   EnergyFlows jumps_;  // between two steps
+  StepRecord steps_;
+  StepTimer timer_;
   SystemState within_;
   SystemState sound_;  // at the last look at an energy not too much
 

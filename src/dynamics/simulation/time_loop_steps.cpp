@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/simulation/failure_diagnosis.hpp"
 #include "limber/dynamics/simulation/time_loop.hpp"
 
@@ -85,24 +87,37 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
                          ? breakpoints_[next_].time
                          : origin_ + static_cast<double>(part_ + 1) * h_;
   const StepResult before = stepper_.totals();
+  const long solves = statistics_.linear_solves;
+  // Not the first step, in which monitors do work that is done once.
+  timer_.begin(statistics_.steps - 1);
   bool is_whole = true;
+  StepCause cause = StepCause::given;  // of a rest, that of what cut it off
   while (end - state.t > kSameTime * h_) {
     const double left = is_whole ? h_ : end - state.t;
     const double h = std::min(left, std::ldexp(h_, -depth_));
     const bool is_last = h >= left * (1.0 - kSameTime);
     const std::size_t events = statistics_.events.size();
+    const double begin = state.t;
     const bool has_moved = goes_through(state, h, [&] {
       stepper_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
+      timer_.measured.newton += timer_.lap();
       stepper_.settle(state, h_);
+      timer_.measured.contact += timer_.lap();
     });
     is_whole = is_whole && !has_moved;
-    if (has_moved) watch_step(state, events);
+    if (has_moved) {
+      watch_step(state, events);
+      timer_.measured.monitors += timer_.lap();
+      if (depth_ > 0) cause = StepCause::failure;
+      cause = record_step({h, cause}, state.t - begin);
+    }
     // Parts of impacts have limits of their own.
     const bool is_share = !is_last && !(stepper_.length() < h);
     if (has_moved && is_share) count_share(state);
     if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
   }
   state.t = end;
+  time_contact(state, statistics_.linear_solves - solves);
   if (depth_ > 0) --depth_;
   count_step(before);
   if (part_ + 1 == parts_ && breakpoints_[next_].is_sample) take_samples(state);
@@ -115,14 +130,77 @@ const Oscillation* TimeLoop::find_oscillation(double t) const {
 }
 
 // The longest step that shows what does not appear in its error: loads that are
-// zero at both ends, or the same after a whole period, and touches [s].
-double TimeLoop::limit_free_step(const SystemState& state) {
+// zero at both ends, or the same after a whole period, and touches.
+TimeLoop::PlannedStep TimeLoop::limit_free_step(const SystemState& state) {
   const double span = breakpoints_[next_].time - origin_;
   const Oscillation* fastest = find_oscillation(state.t);
   const double period = fastest ? fastest->period : kNever;
-  return refinement_ *
-         std::min({span / kFewestStepsToAMark, period / kFewestStepsToAPeriod,
-                   stepper_.touches().find_longest_step(state.t)});
+  PlannedStep step{span / kFewestStepsToAMark, StepCause::breakpoint};
+  const auto limit = [&](double length, StepCause cause) {
+    if (length < step.length) step = {length, cause};
+  };
+  limit(period / kFewestStepsToAPeriod, StepCause::oscillation);
+  limit(stepper_.touches().find_longest_step(state.t), StepCause::impact);
+  step.length *= refinement_;
+  return step;
+}
+
+// @param left until the next breakpoint [s]
+TimeLoop::PlannedStep TimeLoop::plan_free_step(const SystemState& state,
+                                               double left) {
+  const double proposed = control_.propose(state, left);
+  const PlannedStep limit = limit_free_step(state);
+  if (limit.length < proposed) return limit;
+  if (proposed >= left) return {proposed, StepCause::breakpoint};
+  if (proposed < control_.step()) return {proposed, StepCause::rotation};
+  const bool is_longest = proposed >= refinement_ * settings_.step;
+  return {proposed, is_longest ? StepCause::given : StepCause::tolerance};
+}
+
+// Records a step from what was planned and how long it became [s].
+// @returns what determined that
+StepCause TimeLoop::record_step(const PlannedStep& planned, double length) {
+  StepCause cause = planned.cause;
+  if (stepper_.length() < planned.length * (1.0 - kSameTime)) {
+    cause = StepCause::impact;
+  }
+  if (length < stepper_.length() * (1.0 - kSameTime)) cause = StepCause::event;
+  steps_.add(cause, length);
+  if (cause == StepCause::impact && !steps_.of_pair.empty()) {
+    steps_.of_pair[stepper_.impact_pair()] += 1.0;
+  }
+  if (cause == StepCause::tolerance) {
+    steps_.of_body[stepper_.last().error_body] += 1.0;
+  }
+  return cause;
+}
+
+// The part of a measured step that the forces of pairs took: they are evaluated
+// at every solve and once before; where bodies touch, three times for the
+// length of the step, and once by the monitors.
+void TimeLoop::time_contact(const SystemState& state, long solves) {
+  if (!timer_.is_active() || model_.pairs.empty()) return;
+  try {
+    calc_terms(model_, state, Side::right, terms_);
+    static_cast<void>(timer_.lap());
+    apply_pairs(model_, state, now_of(state), terms_);
+  } catch (const NumericalError&) {  // the next step reports it
+    return;
+  }
+  const double each = timer_.lap();
+  const TouchWatch& touches = stepper_.touches();
+  bool touching = false;
+  for (std::size_t i = 0; i < touches.count(); ++i) {
+    touching = touching || touches.is_touching(i);
+  }
+  const auto move = [&](double count, double& from) {
+    const double moved = std::min(count * each, from);
+    from -= moved;
+    timer_.measured.contact += moved;
+  };
+  move(static_cast<double>(solves) + (touching ? 4.0 : 1.0),
+       timer_.measured.newton);
+  move(touching ? 1.0 : 0.0, timer_.measured.monitors);
 }
 
 // Why steps to a tolerance are short.
@@ -150,9 +228,11 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const StepResult before = stepper_.totals();
   const Losses losses_before = losses();
   const double left = mark - state.t;
-  h_ = std::min(control_.propose(state, left), limit_free_step(state));
+  PlannedStep planned = plan_free_step(state, left);
+  h_ = planned.length;
   const double least = find_same_time(state.t, start_);
   if (left - h_ < std::max(kSameTime * h_, least)) h_ = left;
+  planned.length = h_;
   if (!(h_ > least)) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
@@ -162,10 +242,16 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   }
   bool counts = false;
   const std::size_t events = statistics_.events.size();
+  const double begin = state.t;
+  const long solves = statistics_.linear_solves;
+  // Not the first step, in which monitors do work that is done once.
+  timer_.begin(statistics_.steps - 1);
   const bool has_moved = goes_through(state, h_, [&] {
     stepper_.attempt(state, h_, h_ == left ? mark : state.t + h_);
+    timer_.measured.newton += timer_.lap();
     counts = control_.accepts(stepper_.length(), stepper_.last().error);
     counts ? stepper_.settle(state, h_) : stepper_.take_back(state);
+    timer_.measured.contact += timer_.lap();
   });
   if (!has_moved) {
     control_.halve();
@@ -180,6 +266,9 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   }
   count_step(before);
   watch_step(state, events);
+  timer_.measured.monitors += timer_.lap();
+  record_step(planned, state.t - begin);
+  time_contact(state, statistics_.linear_solves - solves);
   // An output there contains the new inputs.
   if (breakpoints_[next_].is_sample && mark - state.t <= kSameTime * h_) {
     state.t = mark;

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/reports/next_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+
+namespace limber::app {
+namespace {
+
+// From which fraction of the steps, or of their time, a part matters [-].
+constexpr double kMany = 0.2;
+constexpr double kMuchTime = 0.4;
+constexpr double kManyIterations = 5.0;  // of Newton's method a step
+constexpr double kLittleError = 1e-5;    // of the energy [-]
+constexpr std::size_t kMostSteps = 3;
+
+/// Suggestions with weights, the larger the more useful.
+using Weighted = std::multimap<double, NextStep, std::greater<>>;
+
+const RunSummary::Steps* find_limit(const RunSummary& run,
+                                    const std::string& by) {
+  for (const RunSummary::Steps& limit : run.limits) {
+    if (limit.by == by) return &limit;
+  }
+  return nullptr;
+}
+
+double share_of(const RunSummary& run, const std::string& by) {
+  const RunSummary::Steps* limit = find_limit(run, by);
+  const double all = count_parts(run);
+  return limit == nullptr || all == 0.0 ? 0.0 : limit->count / all;
+}
+
+double share_of_time(const RunSummary& run, const char* part) {
+  const auto found = run.parts.find(part);
+  return found == run.parts.end() || !(run.seconds > 0.0)
+             ? 0.0
+             : found->second / run.seconds;
+}
+
+std::string find_most(const std::map<std::string, double>& counts) {
+  const auto most = std::max_element(
+      counts.begin(), counts.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? "" : most->first;
+}
+
+void add_end(const RunSummary& run, Weighted& all) {
+  if (run.has_checkpoint &&
+      (run.end == RunEnd::killed || run.end == RunEnd::stopped)) {
+    all.insert({10.0,
+                {fmt::format("limber run {} --resume --out '{}'",
+                             run.scenario.empty() ? "SCENARIO"
+                                                  : "'" + run.scenario + "'",
+                             run.folder),
+                 "a checkpoint is there, from which the run continues"}});
+  }
+  if (run.end != RunEnd::failed) return;
+  const RunSummary::Steps* failed = find_limit(run, "failure");
+  if (run.tolerance > 0.0) {
+    all.insert(
+        {9.0,
+         {fmt::format("--set time.tolerance={:.3g}", 0.1 * run.tolerance),
+          fmt::format("the run failed with the tolerance of {:.3g} m",
+                      run.tolerance)}});
+  } else if (failed != nullptr) {
+    all.insert(
+        {9.0,
+         {fmt::format("--set time.step={:.3g}", failed->shortest),
+          fmt::format("{:.0f} parts of halved steps went through before the "
+                      "failure, the shortest of that length",
+                      failed->count)}});
+  } else {
+    all.insert({9.0,
+                {fmt::format("--set time.step={:.3g}", 0.1 * run.step),
+                 fmt::format("steps of {:.3g} s went through until the one "
+                             "that failed",
+                             run.step)}});
+  }
+  all.insert({8.0,
+              {fmt::format("limber view '{}'", run.folder),
+               fmt::format("the results until the failure at {:.6g} s are "
+                           "there, and show what moves too far",
+                           run.reached)}});
+}
+
+void add_energy(const RunSummary& run, Weighted& all) {
+  if (!run.open_share || !(*run.open_share > dynamics::kToldDrift)) return;
+  const std::string why =
+      fmt::format("the energy error is {:.2g} % of the throughput, most in {}",
+                  100.0 * *run.open_share, run.open_place);
+  const double weight = 5.0 + *run.open_share;
+  if (run.tolerance > 0.0) {
+    all.insert(
+        {weight,
+         {fmt::format("--set time.tolerance={:.3g}", 0.1 * run.tolerance),
+          why}});
+    return;
+  }
+  all.insert(
+      {weight, {fmt::format("--set time.step={:.3g}", 0.5 * run.step), why}});
+  if (run.integrator == "energy-conserving") return;
+  all.insert({weight - 0.5,
+              {"--set time.integrator=energy-conserving",
+               why + "; that scheme keeps it to round-off"}});
+}
+
+void add_limits(const RunSummary& run, Weighted& all) {
+  if (const double impacts = share_of(run, "impact"); impacts > kMany) {
+    all.insert(
+        {3.0 + impacts,
+         {"fewer steps in an impact: --set time.impact_steps=10 (default 20)",
+          fmt::format("{:.0f} % of all parts of steps resolve impacts, most "
+                      "of '{}'; restitution becomes less exact",
+                      100.0 * impacts, find_most(run.by_pair))}});
+  }
+  if (const double tolerance = share_of(run, "tolerance");
+      tolerance > 0.5 && run.steps > 0) {
+    all.insert(
+        {2.0 + tolerance,
+         {fmt::format("--set time.tolerance={:.3g}", 10.0 * run.tolerance),
+          fmt::format("the tolerance limited {:.0f} % of the steps, "
+                      "most by the motion of '{}'; ten times of it "
+                      "halves their number",
+                      100.0 * tolerance, find_most(run.by_body))}});
+  }
+  if (const double marks = share_of(run, "breakpoint"); marks > kMany) {
+    all.insert({2.5 + marks,
+                {"a longer time.output_interval",
+                 fmt::format("{:.0f} % of the steps are short because of "
+                             "outputs, samples or jumps of loads",
+                             100.0 * marks)}});
+  }
+  if (const double waves = share_of(run, "oscillation"); waves > kMany) {
+    all.insert({1.5 + waves,
+                {"--unset time.tolerance with a step",
+                 fmt::format("{:.0f} % of the steps follow the period of a "
+                             "load or command",
+                             100.0 * waves)}});
+  }
+  const double all_steps = static_cast<double>(std::max(run.steps, 1L));
+  if (run.end == RunEnd::finished && run.tolerance == 0.0 &&
+      static_cast<double>(run.halved) > 0.01 * all_steps) {
+    all.insert({4.0,
+                {fmt::format("--set time.step={:.3g}", 0.5 * run.step),
+                 fmt::format("{} of {} steps failed at first and were halved",
+                             run.halved, run.steps)}});
+  }
+  if (static_cast<double>(run.rejected) > kMany * all_steps) {
+    all.insert({2.0,
+                {"a fixed time.step in place of the tolerance",
+                 fmt::format("{} steps were rejected for {} accepted ones",
+                             run.rejected, run.steps)}});
+  }
+}
+
+void add_time(const RunSummary& run, Weighted& all) {
+  if (const double contact = share_of_time(run, "contact");
+      contact > kMuchTime && !run.meshed.empty()) {
+    all.insert({3.0 + contact,
+                {fmt::format("a primitive <collision> shape for '{}'",
+                             run.meshed.front()),
+                 fmt::format("contact took {:.0f} % of the time, and that "
+                             "touches by a mesh",
+                             100.0 * contact)}});
+  }
+  if (const double outputs = share_of_time(run, "outputs"); outputs > kMany) {
+    all.insert(
+        {2.0 + outputs,
+         {"a longer time.output_interval, or fewer probes of stress",
+          fmt::format("outputs took {:.0f} % of the time", 100.0 * outputs)}});
+  }
+  const double all_steps = static_cast<double>(std::max(run.steps, 1L));
+  const double iterations = static_cast<double>(run.iterations) / all_steps;
+  if (iterations > kManyIterations && run.tolerance == 0.0 &&
+      share_of(run, "impact") < kMany) {
+    all.insert({2.0,
+                {fmt::format("--set time.step={:.3g}", 0.5 * run.step),
+                 fmt::format("Newton's method took {:.1f} iterations a step, "
+                             "where 2 or 3 are usual",
+                             iterations)}});
+  }
+  for (const RunSummary::Level& level : run.levels) {
+    if (!level.is_more_than_needed) continue;
+    all.insert({1.8,
+                {fmt::format("--set fidelity.links.{}={}", level.body,
+                             level.recommended),
+                 fmt::format("the motion of '{}' does not need level {}",
+                             level.body, level.used)}});
+    break;
+  }
+  if (run.end == RunEnd::finished && run.tolerance == 0.0 && run.halved == 0 &&
+      run.open_share && *run.open_share < kLittleError &&
+      share_of(run, "given") > 0.9 && iterations < 3.0) {
+    all.insert({1.0,
+                {fmt::format("--set time.step={:.3g}", 2.0 * run.step),
+                 fmt::format("the energy error is below {:g} of the "
+                             "throughput, and Newton's method takes {:.1f} "
+                             "iterations a step: a longer one may do",
+                             kLittleError, iterations)}});
+  }
+}
+
+}  // namespace
+
+double count_parts(const RunSummary& run) {
+  double all = 0.0;
+  for (const RunSummary::Steps& limit : run.limits) all += limit.count;
+  return all;
+}
+
+std::vector<NextStep> find_next_steps(const RunSummary& run) {
+  Weighted all;
+  add_end(run, all);
+  add_energy(run, all);
+  add_limits(run, all);
+  add_time(run, all);
+  std::vector<NextStep> steps;
+  for (const auto& [weight, step] : all) {
+    const bool is_known = std::any_of(
+        steps.begin(), steps.end(),
+        [&](const NextStep& other) { return other.what == step.what; });
+    if (!is_known && steps.size() < kMostSteps) steps.push_back(step);
+  }
+  return steps;
+}
+
+}  // namespace limber::app
