@@ -15,8 +15,9 @@ namespace limber::test {
 inline nlohmann::json read_summary(const std::filesystem::path& folder) {
   nlohmann::json summary =
       nlohmann::json::parse(read_text(folder / "summary.json"));
-  for (const char* cost : {"seconds_offline", "seconds_online",
-                           "bodies_reduced", "bodies_cached"}) {
+  for (const char* cost :
+       {"seconds_offline", "seconds_online", "seconds_by_part",
+        "bodies_reduced", "bodies_cached"}) {
     EXPECT_EQ(summary.erase(cost), 1U) << cost;
   }
   return summary;
