@@ -223,8 +223,9 @@ std::vector<NextStep> find_next_steps(const RunSummary& run) {
   std::vector<NextStep> steps;
   for (const auto& [weight, step] : all) {
     const bool is_known = std::any_of(
-        steps.begin(), steps.end(),
-        [&](const NextStep& other) { return other.what == step.what; });
+        steps.begin(), steps.end(), [&what = step.what](const NextStep& other) {
+          return other.what == what;
+        });
     if (!is_known && steps.size() < kMostSteps) steps.push_back(step);
   }
   return steps;
