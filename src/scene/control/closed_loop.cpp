@@ -146,31 +146,17 @@ std::vector<LoopController> change_periods(
   return controllers;
 }
 
-// Two digits, rounded down.
-double round_down(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::floor(value / unit * (1.0 + 1e-12)) * unit;
-}
-
-// The longest of the halves of the period that is stable; rounded, unless a
-// delay is a multiple of it.
+// The longest of the halves of the period that is stable: exact halves, which
+// delays and the other periods are multiples of.
 std::optional<double> find_stable_period(
     const dynamics::SystemModel& model, const ClosedLoop& loop,
     const std::vector<std::size_t>& changed) {
   const double period = loop.controllers[changed.front()].period;
-  const bool has_delay =
-      std::any_of(changed.begin(), changed.end(), [&](std::size_t i) {
-        return pid_of(model.controllers[i]).parameters().delay > 0;
-      });
-  const auto is_stable = [&](double to) {
-    SampledLoop trial(*loop.plant, change_periods(model, loop.controllers,
-                                                  changed, to / period));
-    return !trial.find_instability();
-  };
   for (double factor = 0.5; factor >= kShortest; factor *= 0.5) {
-    const double to = has_delay ? factor * period : round_down(factor * period);
     try {
-      if (is_stable(to)) return to;
+      SampledLoop trial(*loop.plant, change_periods(model, loop.controllers,
+                                                    changed, factor));
+      if (!trial.find_instability()) return factor * period;
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch)
       // No common period with the others.
     }
@@ -197,11 +183,13 @@ std::string describe_remedy(const dynamics::SystemModel& model,
   if (const auto stable = find_stable_period(model, loop, found.loops)) {
     return fmt::format("with a period of {:.6g} s it is stable", *stable);
   }
-  std::vector<std::size_t> all(loop.controllers.size());
-  std::iota(all.begin(), all.end(), 0U);
-  if (const auto stable = find_stable_period(model, loop, all)) {
-    return fmt::format("with all periods {:.3g} times as long it is stable",
-                       *stable / loop.controllers.front().period);
+  if (found.loops.size() < loop.controllers.size()) {
+    std::vector<std::size_t> all(loop.controllers.size());
+    std::iota(all.begin(), all.end(), 0U);
+    if (const auto stable = find_stable_period(model, loop, all)) {
+      return fmt::format("with all periods {:.3g} times as long it is stable",
+                         *stable / loop.controllers.front().period);
+    }
   }
   return fmt::format(
       "no period down to {:.2g} s makes it stable: check the signs and sizes "
