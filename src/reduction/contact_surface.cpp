@@ -256,15 +256,16 @@ std::vector<ContactSlice> make_contact_slices(
          .heights = slice.heights - slice.normals.transpose() * center,
          .centre_B = motion.centre() - center,
          .motion_B = motion.find_motion(Phi)});
+    ContactSlice& made = slices.back();
+    made.flexibility_B = find_own_flexibility(slice, motion, made.motion_B,
+                                              division.axes, basis.lambda, Phi);
   }
   const MatrixX residual = calc_residual_matrix(body, basis, loads);
   for (std::size_t i = 0; i < slices.size(); ++i) {
     const Eigen::Index at = 3 * static_cast<Eigen::Index>(i);
     const Matrix3 R = residual.block<3, 3>(at, at);
-    slices[i].flexibility_B =
-        R + find_excess(division.slices[i], R, division.axes, material) +
-        find_own_flexibility(division.slices[i], division.axes, basis.lambda,
-                             Phi);
+    slices[i].flexibility_B +=
+        R + find_excess(division.slices[i], R, division.axes, material);
     roll_off_slice(basis.lambda, division.axes, slices[i]);
   }
   return slices;

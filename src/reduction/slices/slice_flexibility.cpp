@@ -10,7 +10,6 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/reduction/slices/slice_motion.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -68,19 +67,18 @@ Matrix3 find_excess(const SkinSlice& slice, const Matrix3& residual,
   return axes * excess.asDiagonal() * axes.transpose();
 }
 
-Matrix3 find_own_flexibility(const SkinSlice& slice, const Matrix3& axes,
+Matrix3 find_own_flexibility(const SkinSlice& slice, const SliceMotion& whole,
+                             const MatrixX& motion, const Matrix3& axes,
                              const VectorX& lambda, const MatrixX& Phi) {
-  const MatrixX modes = Phi.leftCols(lambda.size());
-  const SliceMotion whole(slice.samples);
-  const MatrixX motion = whole.find_motion(modes);
   const Vector3 faces = find_faces(slice.samples, axes);
   Matrix3 flexibility = Matrix3::Zero();
   for (const Samples& samples : divide_along_longest(slice, axes)) {
     if (samples.empty()) continue;
     const SliceMotion station(samples);
     const Vector3 r = station.centre() - whole.centre();
-    const MatrixX own = station.find_motion(modes).topRows<3>() -
-                        motion.topRows<3>() + skew(r) * motion.bottomRows<3>();
+    const MatrixX own = (station.find_motion(Phi).topRows<3>() -
+                         motion.topRows<3>() + skew(r) * motion.bottomRows<3>())
+                            .leftCols(lambda.size());
     const Vector3 share = find_faces(samples, axes).cwiseQuotient(faces);
     const MatrixX pressed =
         share.cwiseSqrt().asDiagonal() * axes.transpose() * own;

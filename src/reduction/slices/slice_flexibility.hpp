@@ -3,6 +3,7 @@
 
 #include "limber/fem/solid/material.hpp"
 #include "limber/reduction/slices/skin_division.hpp"
+#include "limber/reduction/slices/slice_motion.hpp"
 
 /// What a slice gives way beyond its motion as one piece. Part of
 /// limber_reduction.
@@ -23,12 +24,12 @@ namespace limber::flexbody {
 /// Equation   sum_k <d_k d_k'> / lambda_k, d_k = u_k - fit at eight stations
 ///            along its longest side, each a SliceMotion, weighed along each
 ///            axis e by int (n . e)^2 dA
+/// @param whole its motion as one piece, and that of each mode, 6 x m
 /// @param lambda [rad^2/s^2]
 /// @param Phi 3N x m rows of all nodes, its first columns those of lambda
 /// @returns 3 x 3, positive semidefinite [m/N]
-[[nodiscard]] Matrix3 find_own_flexibility(const SkinSlice& slice,
-                                           const Matrix3& axes,
-                                           const VectorX& lambda,
-                                           const MatrixX& Phi);
+[[nodiscard]] Matrix3 find_own_flexibility(
+    const SkinSlice& slice, const SliceMotion& whole, const MatrixX& motion,
+    const Matrix3& axes, const VectorX& lambda, const MatrixX& Phi);
 
 }  // namespace limber::flexbody
