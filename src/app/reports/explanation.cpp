@@ -13,7 +13,6 @@ namespace limber::app {
 namespace {
 
 using dynamics::EnergyRow;
-using Counts = std::map<std::string, double>;
 
 constexpr std::size_t kMostCarriers = 3;
 constexpr std::size_t kMostWarnings = 3;
@@ -49,11 +48,8 @@ std::vector<EnergyRow> find_carriers(const RunSummary& run) {
 }
 
 std::string describe_limit(const std::string& by, const RunSummary& run) {
-  const auto most = [](const Counts& counts) {
-    const auto found = std::max_element(
-        counts.begin(), counts.end(),
-        [](const auto& a, const auto& b) { return a.second < b.second; });
-    return found == counts.end() ? "" : fmt::format(" '{}'", found->first);
+  const auto most = [](const std::map<std::string, double>& counts) {
+    return counts.empty() ? "" : fmt::format(" '{}'", find_most(counts));
   };
   if (by == "given") {
     return fmt::format("as given, {:.3g} s at most", run.step);

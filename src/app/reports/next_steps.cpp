@@ -43,13 +43,6 @@ double share_of_time(const RunSummary& run, const char* part) {
              : found->second / run.seconds;
 }
 
-std::string find_most(const std::map<std::string, double>& counts) {
-  const auto most = std::max_element(
-      counts.begin(), counts.end(),
-      [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == counts.end() ? "" : most->first;
-}
-
 void add_end(const RunSummary& run, Weighted& all) {
   if (run.has_checkpoint &&
       (run.end == RunEnd::killed || run.end == RunEnd::stopped)) {

@@ -159,6 +159,13 @@ void read_checkpoint_of(const fs::path& file, RunSummary& run) {
 
 }  // namespace
 
+std::string find_most(const std::map<std::string, double>& counts) {
+  const auto most = std::max_element(
+      counts.begin(), counts.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? "" : most->first;
+}
+
 RunSummary read_run_summary(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {

@@ -62,6 +62,10 @@ struct RunSummary {
   std::vector<std::string> warnings;
 };
 
+/// The name with the largest count; empty without any.
+[[nodiscard]] std::string find_most(
+    const std::map<std::string, double>& counts);
+
 /// Reads the record of a run: summary.json, or the checkpoint of a run that was
 /// killed.
 /// @throws InputError if the folder has neither, naming what it is instead, or

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "limber/app/run/probe_columns.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -49,11 +50,7 @@ class ScratchFolder {
 /// The start, as often as there are outputs.
 results::History repeat_start(const scene::BuiltScene& built, int outputs) {
   results::History history;
-  for (const scene::Probe& probe : built.probes) {
-    for (const auto& column : scene::column_names(probe)) {
-      history.columns.push_back({column.name, column.unit});
-    }
-  }
+  history.columns = list_columns(built.probes);
   const std::vector<double> row =
       scene::evaluate_all(built.probes, built.model, built.initial);
   for (int i = 0; i < outputs; ++i) {
@@ -83,10 +80,7 @@ std::size_t predict_file(const PicturedScene& scene) {
   const auto outputs = static_cast<double>(built.settings.output_times.size());
   const double least = measure_file(scene, kFew);
   const double each = (measure_file(scene, kMany) - least) / (kMany - kFew);
-  std::size_t columns = 0;
-  for (const scene::Probe& probe : built.probes) {
-    columns += scene::column_names(probe).size();
-  }
+  const std::size_t columns = list_columns(built.probes).size();
   const std::vector<double> edges = choose_envelope_edges(
       built.initial.t, built.settings.output_times, built.settings.end_time);
   const std::size_t envelopes =

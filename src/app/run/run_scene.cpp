@@ -15,6 +15,7 @@
 #include "limber/app/reports/cut_contacts.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
+#include "limber/app/run/probe_columns.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
@@ -56,14 +57,6 @@ void include_outputs(const results::History& history, Envelopes& envelopes) {
   for (std::size_t i = 0; i < history.times.size(); ++i) {
     for (std::size_t c = 0; c < history.probe_rows[i].size(); ++c) {
       include(envelopes, c, history.probe_rows[i][c], history.times[i]);
-    }
-  }
-}
-
-void add_columns(Run& run) {
-  for (const scene::Probe& probe : run.built.probes) {
-    for (const auto& column : scene::column_names(probe)) {
-      run.history.columns.push_back({column.name, column.unit});
     }
   }
 }
@@ -271,7 +264,7 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   run.built = std::move(built);
   run.built.settings.passes = dynamics::choose_passes(
       run.built.model, run.built.settings, run.built.initial.t);
-  add_columns(run);
+  run.history.columns = list_columns(run.built.probes);
   dynamics::Followed followed =
       scene::follow(run.built.probes, run.built.model);
   std::optional<RunSurvey> survey;

@@ -12,6 +12,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/levels.hpp"
+#include "limber/app/run/probe_columns.hpp"
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -26,11 +27,7 @@ namespace {
 
 void observe_equilibrium(StaticRun& run) {
   const dynamics::SystemState& state = run.found.state;
-  for (const scene::Probe& probe : run.built.probes) {
-    for (const auto& column : scene::column_names(probe)) {
-      run.history.columns.push_back({column.name, column.unit});
-    }
-  }
+  run.history.columns = list_columns(run.built.probes);
   run.history.times = {state.t};
   run.history.probe_rows = {
       scene::evaluate_all(run.built.probes, run.built.model, state)};

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "limber/app/reports/stress_report.hpp"
+#include "limber/app/run/probe_columns.hpp"
 #include "limber/app/study/curve_measures.hpp"
 #include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
@@ -349,11 +350,7 @@ Run make_start(const scene::Scene& scene, const scene::BuiltScene& built) {
   Run run;
   run.scene = scene;
   run.built = built;
-  for (const scene::Probe& probe : built.probes) {
-    for (const auto& column : scene::column_names(probe)) {
-      run.history.columns.push_back({column.name, column.unit});
-    }
-  }
+  run.history.columns = list_columns(built.probes);
   run.history.times = {0.0};
   run.history.probe_rows = {
       scene::evaluate_all(built.probes, built.model, built.initial)};
