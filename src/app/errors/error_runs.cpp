@@ -17,6 +17,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/library_lock.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
@@ -168,6 +169,10 @@ class Estimator {
                          });
       made.run.seconds = run.statistics.seconds;
       if (run.failure) std::rethrow_exception(run.failure);
+      if (auto open = find_imbalance(run.record.energy.worst,
+                                     own_.record.energy.worst)) {
+        throw NumericalError(*open);
+      }
       if (run.history.times.size() != own_.history.times.size()) {
         throw InputError("it has other outputs");
       }
@@ -206,6 +211,19 @@ class Estimator {
 };
 
 }  // namespace
+
+std::optional<std::string> find_imbalance(const dynamics::EnergyDrift& finer,
+                                          const dynamics::EnergyDrift& own) {
+  constexpr double kMuchMore = 2.0;
+  const double open = dynamics::find_open_share(finer);
+  const double most = std::max(dynamics::kToldDrift,
+                               kMuchMore * dynamics::find_open_share(own));
+  if (!(open > most)) return std::nullopt;
+  return fmt::format(
+      "{:.2g} % of its energy are {} by t = {:.4g} s that nothing accounts for",
+      100.0 * open, finer.drift.value < 0.0 ? "lost" : "gained",
+      finer.drift.time);
+}
 
 ErrorTable estimate_errors(const Run& run, const std::filesystem::path& cache,
                            const Progress& progress) {

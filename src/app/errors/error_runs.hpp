@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "limber/app/reports/error_table.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/common/progress.hpp"
+#include "limber/dynamics/monitors/energy_record.hpp"
 
 namespace limber::app {
 
@@ -15,6 +18,11 @@ namespace limber::app {
 [[nodiscard]] ErrorTable estimate_errors(const Run& run,
                                          const std::filesystem::path& cache,
                                          const Progress& progress);
+
+/// Why a run with finer settings is no better than one's own: it gains or loses
+/// much more energy that nothing accounts for.
+[[nodiscard]] std::optional<std::string> find_imbalance(
+    const dynamics::EnergyDrift& finer, const dynamics::EnergyDrift& own);
 
 /// Has files and pictures of the run show them.
 void add_errors(Run& run, ErrorTable errors);
