@@ -18,7 +18,7 @@ const std::vector<std::pair<std::string, ContactQuantity>> kContactQuantities =
      {"slipping", ContactQuantity::slipping}};
 
 void refuse_others(TomlTable& table) {
-  for (const char* other : {"link", "coupler"}) {
+  for (const char* other : {"link", "joint", "coupler"}) {
     if (!table.has(other)) continue;
     table.fail(fmt::format("has both '{}' and 'contact'; keep one", other));
     table.skip(other);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/scenario/coupler_probe_reader.hpp"
 
+#include <fmt/format.h>
+
 namespace limber::scene {
 namespace {
 
@@ -22,12 +24,14 @@ const std::vector<std::pair<std::string, CouplerQuantity>> kCouplerQuantities =
 
 CouplerProbeSpec read_coupler_probe(TomlTable& table) {
   CouplerProbeSpec probe;
-  probe.coupler = table.required_text("coupler");
-  if (table.has("link")) {
-    table.fail("has both 'link' and 'coupler'; keep one");
-    (void)table.text("link");
+  // A joint is a coupler of its name.
+  const std::string of = table.has("joint") ? "joint" : "coupler";
+  probe.coupler = table.required_text(of);
+  for (const char* other : {"link", "coupler"}) {
+    if (other == of || !table.has(other)) continue;
+    table.fail(fmt::format("has both '{}' and '{}'; keep one", other, of));
+    table.skip(other);
   }
-  if (!table.has("quantity")) table.fail("needs 'quantity'");
   probe.quantity = read_choice<CouplerQuantity>(
       table, "quantity", kCouplerQuantities, probe.quantity);
   probe.side = read_choice<ProbeSide>(

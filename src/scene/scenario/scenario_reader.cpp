@@ -146,7 +146,9 @@ ProbeSpec read_probe(TomlTable& table) {
   if (table.has("controller")) {
     return {name, ControllerProbeSpec{table.required_text("controller")}};
   }
-  if (table.has("coupler")) return {name, read_coupler_probe(table)};
+  if (table.has("joint") || table.has("coupler")) {
+    return {name, read_coupler_probe(table)};
+  }
   return read_link_probe(table, name);
 }
 

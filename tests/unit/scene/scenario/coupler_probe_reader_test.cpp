@@ -39,9 +39,20 @@ TEST(CouplerProbeReader, ReadsProbesOfCouplers) {
   EXPECT_EQ(angle.quantity, CouplerQuantity::coordinate);
 }
 
+TEST(CouplerProbeReader, TakesAJointByThatNameAndItsCoordinateByDefault) {
+  const std::string probe = "[[probe]]\nname='p'\njoint='hinge'\n";
+  const Scenario scenario = read(probe);
+  const auto& found = std::get<CouplerProbeSpec>(scenario.probes.at(0).of);
+  EXPECT_EQ(found.coupler, "hinge");
+  EXPECT_EQ(found.quantity, CouplerQuantity::coordinate);
+  EXPECT_THAT(error_of(probe + "coupler='c'\n"),
+              HasSubstr("both 'coupler' and 'joint'"));
+  EXPECT_THAT(error_of(probe + "link='a'\n"),
+              HasSubstr("both 'link' and 'joint'"));
+}
+
 TEST(CouplerProbeReader, RefusesKeysThatTheQuantityDoesNotHave) {
   const std::string probe = "[[probe]]\nname='p'\ncoupler='c'\n";
-  EXPECT_THAT(error_of(probe), HasSubstr("needs 'quantity'"));
   EXPECT_THAT(error_of(probe + "quantity='froce'\n"),
               HasSubstr("did you mean 'force'"));
   EXPECT_THAT(error_of(probe + "quantity='energy'\nframe='world'\n"),
