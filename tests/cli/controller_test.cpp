@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
+#include "cli/finger.hpp"
 #include "cli/shell.hpp"
 
 namespace limber::test::controller_test {
@@ -232,6 +233,95 @@ TEST_F(AController, WithAWrongSignIsUnstableAtEveryPeriod) {
   (void)run(
       "--set controller.pd.proportional=-3 --set controller.pd.derivative=-1");
   EXPECT_THAT(errors_, HasSubstr("makes it stable: check the signs and sizes"));
+}
+
+/// A servo of the angle of a flexible finger, whose rate it takes by
+/// differences.
+std::string make_finger_scene(const char* step, const char* more) {
+  return fmt::format(R"(robot = "claw.urdf"
+[time]
+duration = 0.1
+step = {}
+output_interval = 5e-4
+[output]
+pictures = false
+[initial.joints]
+hinge = {{ position = 0.299 }}
+[[probe]]
+name = "angle"
+joint = "hinge"
+[[probe]]
+name = "torque"
+controller = "servo"
+[[controller]]
+name = "servo"
+period = 5e-4
+measures = "angle.q"
+reference = 0.3
+proportional = 20.0
+derivative = 1.0
+limits = [-3, 3]
+{}
+[[drive]]
+joint = "hinge"
+mode = "effort"
+signal = {{ kind = "input", controller = "servo" }}
+)",
+                     step, more);
+}
+
+class AServoOfAFinger : public ::testing::Test {
+ protected:
+  AServoOfAFinger() {
+    place_.write("finger.geo", kFingerGeometry);
+    place_.write("claw.urdf", kFinger);
+  }
+
+  /// The last torque, and what is told.
+  double run(const char* step, const char* more = "") {
+    place_.write("s.toml", make_finger_scene(step, more));
+    const CommandResult result =
+        place_.limber("run s.toml --json --cache cache --out o");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    errors_ = result.errors;
+    return json::parse(result.out)["probes"]["torque.u"]["peak"].get<double>();
+  }
+
+  Workspace place_;
+  std::string errors_;
+};
+
+// Modes that the steps do not resolve have a wrong phase at the samples, which
+// makes them vibrate at single steps and not at shorter or longer ones.
+TEST_F(AServoOfAFinger, ThatVibratesByErrorsOfTheStepsIsTold) {
+  const double exact = std::abs(run("5e-6"));
+  EXPECT_THAT(errors_, Not(HasSubstr("with a step of")));
+  EXPECT_LT(exact, 1.0);
+  const double vibrating = std::abs(run("2e-5"));
+  EXPECT_GT(vibrating, 2.5);
+  EXPECT_THAT(errors_, HasSubstr("with a step of 2e-05 s the sampled loop "
+                                 "vibrates at"));
+}
+
+TEST_F(AServoOfAFinger, ThatNoPeriodMakesStableGetsAFilterThatDoes) {
+  run("1e-4", "");
+  EXPECT_THAT(errors_, Not(HasSubstr("stable")));  // not within the run
+  place_.write("s.toml", make_finger_scene("1e-4", ""));
+  const CommandResult longer = place_.limber(
+      "run s.toml --json --cache cache --out o --set time.duration=0.5");
+  EXPECT_THAT(longer.errors, HasSubstr("the sampled loop is unstable at"));
+  const std::string word = "but filter = ";
+  const std::size_t at = longer.errors.find(word);
+  ASSERT_NE(at, std::string::npos) << longer.errors;
+  const std::string filter =
+      "filter = " +
+      std::to_string(std::stod(longer.errors.substr(at + word.size())));
+  place_.write("s.toml", make_finger_scene("1e-4", filter.c_str()));
+  EXPECT_THAT(place_
+                  .limber("run s.toml --json --cache cache --out o --set "
+                          "time.duration=0.5")
+                  .errors,
+              Not(HasSubstr("loop is unstable")));
 }
 
 TEST_F(AController, ThatChangedIsNamedWhenARunIsResumed) {

@@ -293,9 +293,9 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
 
 std::optional<std::string> find_unstable_loop(const scene::Scene& scene,
                                               const scene::BuiltScene& built) {
-  return scene::describe_unstable_loop(
-      scene.scenario, built.model, built.initial, built.probes,
-      built.settings.end_time - built.initial.t);
+  return scene::describe_unstable_loop(scene.scenario, built.model,
+                                       built.initial, built.probes,
+                                       built.settings);
 }
 
 double repeat_timing(const Run& run, const Progress& progress) {

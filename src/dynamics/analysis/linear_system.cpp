@@ -179,6 +179,7 @@ LinearSystem linearise(const SystemModel& model, const SystemState& state,
   out.change = steady.change;
   out.imbalance = find_imbalance(
       model, state, std::vector<Vector3>(model.bodies.size(), steady.axes.w_W));
+  out.coordinates = motion.size();
   out.free = steady.basis.free;
   const Index relaxations = motion.relaxation_rates().size();
   out.states = name_system_states(out.free, motion.size(), relaxations);

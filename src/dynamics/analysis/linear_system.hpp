@@ -30,7 +30,8 @@ struct LinearSystem {
   bool is_moving = false;
   Imbalance imbalance;    ///< of the reference
   double change = 0.0;    ///< of the coefficients while it rotates by 1 rad [-]
-  Eigen::Index free = 0;  ///< coordinates of free motion
+  Eigen::Index coordinates = 0;  ///< of q
+  Eigen::Index free = 0;         ///< those of free motion
   MatrixX A;              ///< [1/s]
   MatrixX B;              ///< [state's / s / input's]
   std::vector<LinearSignal> states;

@@ -61,9 +61,14 @@ Eigen::VectorXcd find_left_vector(const MatrixX& A, std::complex<double> pole) {
 }  // namespace
 
 SampledLoop::SampledLoop(const LinearModel& plant,
-                         std::vector<LoopController> controllers)
+                         std::vector<LoopController> controllers,
+                         const std::optional<LoopSteps>& steps)
     : plant_(plant), controllers_(std::move(controllers)) {
   LIMBER_EXPECT(!controllers_.empty());
+  if (steps) {
+    steps_.emplace(plant_.A, steps->coordinates, steps->parameters,
+                   steps->longest);
+  }
   period_ = find_common_period(controllers_);
   find_layout();
   find_samples();
@@ -83,9 +88,10 @@ void SampledLoop::find_layout() {
         [&](const LoopInput& i) { return i.value == j || i.rate == j; });
     if (!is_written) external_.push_back(j);
   }
-  at_.inputs = plant_.A.rows();
-  at_.slopes = at_.inputs + std::ssize(written_);
-  at_.laws = at_.slopes + std::ssize(written_);
+  const Index written = std::ssize(written_);
+  at_.inputs = plant_.A.rows() + (steps_ ? steps_->memory_size(written) : 0);
+  at_.slopes = at_.inputs + written;
+  at_.laws = at_.slopes + written;
   at_.external = at_.laws + states;
   at_.references = at_.external + std::ssize(external_);
   at_.size = at_.references + std::ssize(controllers_);
@@ -122,7 +128,25 @@ const MatrixX& SampledLoop::find_flow(double duration) {
   if (known != flows_.end()) return known->second;
   // States, inputs, slopes, and external inputs; all else stays.
   const Index moving = at_.laws;
-  const Index size = moving + std::ssize(external_);
+  const MatrixX E =
+      steps_ ? find_stepped_flow(duration) : find_exact_flow(duration);
+  MatrixX flow = MatrixX::Identity(at_.size, at_.size);
+  flow.topLeftCorner(moving, moving) = E.topLeftCorner(moving, moving);
+  flow.block(0, at_.external, moving, E.cols() - moving) =
+      E.topRightCorner(moving, E.cols() - moving);
+  return flows_.emplace(duration, std::move(flow)).first->second;
+}
+
+MatrixX SampledLoop::find_external_inputs() const {
+  MatrixX columns(plant_.B.rows(), std::ssize(external_));
+  for (std::size_t i = 0; i < external_.size(); ++i) {
+    columns.col(static_cast<Index>(i)) = plant_.B.col(external_[i]);
+  }
+  return columns;
+}
+
+MatrixX SampledLoop::find_exact_flow(double duration) const {
+  const Index size = at_.laws + std::ssize(external_);
   MatrixX M = MatrixX::Zero(size, size);
   M.topLeftCorner(at_.inputs, at_.inputs) = plant_.A;
   for (std::size_t i = 0; i < written_.size(); ++i) {
@@ -134,22 +158,29 @@ const MatrixX& SampledLoop::find_flow(double duration) {
     if (input.rate < 0) continue;
     M.col(at_.slopes + k).head(at_.inputs) = plant_.B.col(input.rate);
   }
-  for (std::size_t i = 0; i < external_.size(); ++i) {
-    M.col(moving + static_cast<Index>(i)).head(at_.inputs) =
-        plant_.B.col(external_[i]);
+  M.topRightCorner(at_.inputs, std::ssize(external_)) = find_external_inputs();
+  return dense::Exponential(size)(M * duration);
+}
+
+// A held input has the slope 0.
+MatrixX SampledLoop::find_stepped_flow(double duration) const {
+  SteppedMotion::Inputs inputs;
+  inputs.by_value = inputs.by_slope =
+      MatrixX::Zero(plant_.B.rows(), std::ssize(written_));
+  for (std::size_t i = 0; i < written_.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    inputs.by_value.col(k) = plant_.B.col(written_[i].value);
+    if (written_[i].rate < 0) continue;
+    inputs.by_slope.col(k) = plant_.B.col(written_[i].rate);
   }
-  const MatrixX E = dense::Exponential(size)(M * duration);
-  MatrixX flow = MatrixX::Identity(at_.size, at_.size);
-  flow.topLeftCorner(moving, moving) = E.topLeftCorner(moving, moving);
-  flow.block(0, at_.external, moving, size - moving) =
-      E.topRightCorner(moving, size - moving);
-  return flows_.emplace(duration, std::move(flow)).first->second;
+  inputs.by_steady = find_external_inputs();
+  return steps_->find_flow(inputs, duration);
 }
 
 // The plant's outputs by the joint state, before a sample.
 MatrixX SampledLoop::find_outputs() const {
   MatrixX rows = MatrixX::Zero(plant_.C.rows(), at_.size);
-  rows.leftCols(at_.inputs) = plant_.C;
+  rows.leftCols(plant_.C.cols()) = plant_.C;
   for (std::size_t i = 0; i < written_.size(); ++i) {
     const auto k = static_cast<Index>(i);
     rows.col(at_.inputs + k) = plant_.D.col(written_[i].value);

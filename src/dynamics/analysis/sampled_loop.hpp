@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/dynamics/analysis/linear_model.hpp"
+#include "limber/dynamics/analysis/stepped_motion.hpp"
 #include "limber/dynamics/control/linear_law.hpp"
 #include "limber/dynamics/system/controller.hpp"
 
@@ -37,6 +38,14 @@ struct LoopController {
   LoopReference reference = {};
 };
 
+/// Equal steps by which a loop moves between its samples, in place of exact
+/// motion.
+struct LoopSteps {
+  AlphaParameters parameters;
+  double longest = 0.0;          ///< > 0 [s]
+  Eigen::Index coordinates = 0;  ///< LinearSystem::coordinates of the plant
+};
+
 /// A linear model and its sampled controllers, as one discrete system.
 ///
 /// Equation   x = (z, inputs, their slopes, states of the laws) just before the
@@ -52,16 +61,18 @@ struct LoopController {
 class SampledLoop {
  public:
   /// @param plant stored by reference
+  /// @param steps none: exact motion
   /// @throws InputError if the periods have no common multiple.
-  SampledLoop(const LinearModel& plant,
-              std::vector<LoopController> controllers);
+  SampledLoop(const LinearModel& plant, std::vector<LoopController> controllers,
+              const std::optional<LoopSteps>& steps = std::nullopt);
 
   [[nodiscard]] double period() const { return period_; }  ///< T [s]
   [[nodiscard]] const std::vector<LoopController>& controllers() const {
     return controllers_;
   }
-  /// States NAME, NAME.rate and CONTROLLER.state_1, ...; inputs those of the
-  /// plant that no controller writes, then CONTROLLER.reference.
+  /// Of exact motion. States NAME, NAME.rate and CONTROLLER.state_1, ...;
+  /// inputs those of the plant that no controller writes, then
+  /// CONTROLLER.reference.
   [[nodiscard]] LinearModel find_model();
 
   /// A pole outside of the unit circle that the controllers move.
@@ -97,6 +108,10 @@ class SampledLoop {
   void find_layout();
   void find_samples();
   [[nodiscard]] const MatrixX& find_flow(double duration);
+  [[nodiscard]] MatrixX find_exact_flow(double duration) const;
+  [[nodiscard]] MatrixX find_stepped_flow(double duration) const;
+  // Their columns of B.
+  [[nodiscard]] MatrixX find_external_inputs() const;
   [[nodiscard]] MatrixX find_jump(const Sample& sample, std::size_t scaled,
                                   double gain) const;
   // Over a period, of the joint state; with one controller's outputs scaled.
@@ -111,6 +126,7 @@ class SampledLoop {
       const MatrixX& A, const Eigen::VectorXcd& v, std::complex<double> pole);
 
   const LinearModel& plant_;
+  std::optional<SteppedMotion> steps_;
   std::vector<LoopController> controllers_;
   double period_ = 0.0;
   std::vector<Sample> samples_;

@@ -23,8 +23,13 @@ using dynamics::PidController;
 using dynamics::SampledLoop;
 
 constexpr Eigen::Index kMostStates = 600;
-constexpr double kShortest = 1.0 / 64.0;  // of the periods
-constexpr double kVisibleGrowth = 10.0;   // over a run
+constexpr double kShortest = 1.0 / 64.0;    // of the periods
+constexpr double kLongestFilter = 64.0;     // in periods
+constexpr double kVisibleGrowth = 10.0;     // over a run
+constexpr Eigen::Index kMostStepped = 400;  // states
+constexpr int kMostSteps = 64;              // shortened to, of a step
+// Growth by steps, above that of exact motion, that is one of steps alone.
+constexpr double kFalseGrowth = 3.0;
 
 // -1: none.
 Eigen::Index find_row(const std::vector<dynamics::LinearSignal>& signals,
@@ -146,6 +151,26 @@ std::vector<LoopController> change_periods(
   return controllers;
 }
 
+// The shortest filter of the measurements, in doubled periods, that makes the
+// loop stable.
+std::optional<double> find_stable_filter(
+    const dynamics::SystemModel& model, const ClosedLoop& loop,
+    const std::vector<std::size_t>& changed) {
+  const double period = loop.controllers[changed.front()].period;
+  for (double factor = 1.0; factor <= kLongestFilter; factor *= 2.0) {
+    std::vector<LoopController> controllers = loop.controllers;
+    for (const std::size_t i : changed) {
+      dynamics::PidParameters parameters =
+          pid_of(model.controllers[i]).parameters();
+      parameters.filter_time = factor * period;
+      controllers[i].law = PidController(parameters).linearise();
+    }
+    SampledLoop trial(*loop.plant, std::move(controllers));
+    if (!trial.find_instability()) return factor * period;
+  }
+  return std::nullopt;
+}
+
 // The longest of the halves of the period that is stable: exact halves, which
 // delays and the other periods are multiples of.
 std::optional<double> find_stable_period(
@@ -191,10 +216,78 @@ std::string describe_remedy(const dynamics::SystemModel& model,
                          *stable / loop.controllers.front().period);
     }
   }
+  const std::string no_period =
+      fmt::format("no period down to {:.2g} s makes it stable",
+                  kShortest * loop.controllers[found.loops.front()].period);
+  if (const auto filter = find_stable_filter(model, loop, found.loops)) {
+    return fmt::format("{}, but filter = {:.3g} does", no_period, *filter);
+  }
+  return no_period + ": check the signs and sizes of its gains and its delay";
+}
+
+// The steps of a run; none if they vary or are not those of generalized-alpha.
+std::optional<dynamics::LoopSteps> find_steps(
+    const dynamics::SimulationSettings& settings, Eigen::Index coordinates) {
+  using enum dynamics::IntegratorKind;
+  const bool is_alpha = settings.integrator == generalized_alpha;
+  const bool is_euler = settings.integrator == implicit_euler;
+  if (!(is_alpha || is_euler)) return {};
+  if (settings.tolerance > 0.0 || !settings.step_changes.empty()) return {};
+  return dynamics::LoopSteps{
+      is_alpha ? dynamics::find_alpha_parameters(settings.rho_inf)
+               : dynamics::AlphaParameters{},
+      settings.step, coordinates};
+}
+
+double growth_of(const std::optional<SampledLoop::Instability>& found) {
+  return found ? found->growth : 0.0;
+}
+
+/// A loop, and what of its growth matters.
+struct Judged {
+  const ClosedLoop& loop;
+  const std::optional<SampledLoop::Instability>& exact;
+  double visible = 0.0;  // least growth that is seen in the run [1/s]
+
+  [[nodiscard]] std::optional<SampledLoop::Instability> find_false(
+      const dynamics::LoopSteps& steps) const {
+    SampledLoop stepped(*loop.plant, loop.controllers, steps);
+    auto found = stepped.find_instability();
+    const double most = std::max(visible, kFalseGrowth * growth_of(exact));
+    if (!(growth_of(found) > most)) found.reset();
+    return found;
+  }
+};
+
+std::string find_better_step(const Judged& judged, dynamics::LoopSteps steps) {
+  for (int parts = 2; parts <= kMostSteps; parts *= 2) {
+    steps.longest *= 0.5;
+    if (!judged.find_false(steps)) {
+      return fmt::format("take a step of {:.3g} s", steps.longest);
+    }
+  }
+  return "give the controller a filter";
+}
+
+// A vibration of modes that the steps do not resolve, whose phase at the
+// samples is wrong.
+std::optional<std::string> describe_false_vibration(
+    const dynamics::SystemModel& model, const Judged& judged,
+    const std::optional<dynamics::LoopSteps>& steps) {
+  if (!steps || judged.loop.plant->A.rows() > kMostStepped) return {};
+  const auto found = judged.find_false(*steps);
+  if (!found) return {};
+  const std::string truth =
+      judged.exact
+          ? fmt::format("grows tenfold in {:.2g} s; {}",
+                        std::log(10.0) / judged.exact->growth,
+                        describe_remedy(model, judged.loop, *judged.exact))
+          : "is stable; " + find_better_step(judged, *steps);
   return fmt::format(
-      "no period down to {:.2g} s makes it stable: check the signs and sizes "
-      "of its gains, filter and delay",
-      kShortest * loop.controllers[found.loops.front()].period);
+      "{}: with a step of {:.3g} s the sampled loop vibrates at {:.3g} Hz, "
+      "growing tenfold in {:.2g} s; without errors of the steps it {}",
+      describe_loops(model, found->loops), steps->longest, found->frequency,
+      std::log(10.0) / found->growth, truth);
 }
 
 }  // namespace
@@ -223,22 +316,29 @@ std::string describe_instability(const dynamics::SystemModel& model,
 std::optional<std::string> describe_unstable_loop(
     const Scenario& scenario, const dynamics::SystemModel& model,
     const dynamics::SystemState& state, const std::vector<Probe>& probes,
-    double duration) {
+    const dynamics::SimulationSettings& settings) {
   if (model.controllers.empty() || !model.full_bodies.empty()) {
     return std::nullopt;
   }
+  constexpr auto kLimits =
+      " (linear, about the start, without dry friction and limits)";
   try {
     const dynamics::SystemModel smooth = without_dry_friction(model);
-    const ClosedLoop loop =
-        find_closed_loop(smooth, linearise(scenario, smooth, state, probes));
+    const LinearScene linear = linearise(scenario, smooth, state, probes);
+    const ClosedLoop loop = find_closed_loop(smooth, linear);
     if (loop.plant->A.rows() > kMostStates) return std::nullopt;
     SampledLoop sampled(*loop.plant, loop.controllers);
     const auto found = sampled.find_instability();
-    if (!found || found->growth * duration < std::log(kVisibleGrowth)) {
-      return std::nullopt;
+    const double visible =
+        std::log(kVisibleGrowth) / (settings.end_time - state.t);
+    auto text = describe_false_vibration(
+        smooth, {loop, found, visible},
+        find_steps(settings, linear.system.coordinates));
+    if (!text && growth_of(found) >= visible) {
+      text = describe_instability(smooth, loop, *found);
     }
-    return describe_instability(smooth, loop, *found) +
-           " (linear, about the start, without dry friction and limits)";
+    if (text) *text += kLimits;
+    return text;
   } catch (const InputError&) {
     return std::nullopt;  // no linear model about this state
   } catch (const NumericalError&) {

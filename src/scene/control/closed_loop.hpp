@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limber/dynamics/analysis/sampled_loop.hpp"
+#include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/scene/control/linear_scene.hpp"
 
 namespace limber::scene {
@@ -29,16 +30,17 @@ struct ClosedLoop {
     const dynamics::SampledLoop::Instability& found);
 
 /// The controllers whose sampled loop is unstable about a state, with a period
-/// at which it is stable, if there is one: a warning, or nothing.
+/// at which it is stable, if there is one; or that the steps make it vibrate,
+/// with a shorter one: a warning, or nothing.
 ///
 /// Limits     linear, without dry friction, within the outputs' limits; nothing
 ///            for bodies at level full, bodies that touch, controllers that are
 ///            functions, models of more than 600 states, and motion that does
-///            not grow tenfold within the run
-/// @param duration of the run [s]
+///            not grow tenfold within the run; steps are those of
+///            generalized-alpha or implicit Euler without a tolerance
 [[nodiscard]] std::optional<std::string> describe_unstable_loop(
     const Scenario& scenario, const dynamics::SystemModel& model,
     const dynamics::SystemState& state, const std::vector<Probe>& probes,
-    double duration);
+    const dynamics::SimulationSettings& settings);
 
 }  // namespace limber::scene
