@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`pip install .`: builds the Python module by CMake. Needs what
-scripts/install-deps installs, and no network (docs/python.md)."""
+scripts/install-deps installs, and no network (docs/reference/python.md)."""
 
 import os
 import pathlib

@@ -252,7 +252,7 @@ void write_page(Page& page) {
       std::max(find_worst(left.zv, 1), find_worst(left.zvd, 2));
   page.check(worst < 0.02,
              fmt::format("at 0.8 to 1.3 times the frequency they leave what "
-                         "[their formulas](../../../docs/joints.md#"
+                         "[their formulas](../../../docs/reference/joints.md#"
                          "drives-and-limits) say, to {:.1g} of the "
                          "trapezoid's.",
                          worst));

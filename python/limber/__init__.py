@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Limber simulates arms that bend. Docs: docs/python.md.
+"""Limber simulates arms that bend. Docs: docs/reference/python.md.
 
     run = limber.load("examples/struck_finger.toml").run()
     run.plot("finger_1_tip")

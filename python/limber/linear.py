@@ -8,7 +8,7 @@ import numpy
 
 class LinearModel:
     """z' = A z + B (u - u0), y - y0 = C z + D (u - u0), of n states, m inputs
-    and p outputs; see docs/linearize.md. With closed loops it is discrete, from
+    and p outputs; see docs/reference/linearize.md. With closed loops it is discrete, from
     sample to sample: z_(k+1) = A z_k + B du_k, dy_k = C z_k + D du_k.
 
     Matrices are read-only views of the memory of the model, which they keep

@@ -13,7 +13,7 @@ from .toml import from_toml, is_of_robot, look_up, put, read_toml, to_toml
 
 
 def load(file, set=None, unset=(), fidelity=None):
-    """Loads a scenario file (docs/formats/scenario.md) and its robot.
+    """Loads a scenario file (docs/reference/scenario.md) and its robot.
 
     ``set``: ``{path: value}``, keys of the scenario or the robot, as
     ``{"time.step": 1e-4, "load.strike.force.2": -200.0}``; ``unset``: paths of
@@ -256,7 +256,7 @@ class Scenario:
         ``levels``: as ``["rigid", "coupled"]``; ``modes``: numbers of
         eigenmodes; ``sources`` of the bases; ``steps`` [s]; all combinations
         are run. ``reference...``: what they are compared with.
-        Returns a dictionary, that of comparison.json (docs/compare.md), with
+        Returns a dictionary, that of comparison.json (docs/reference/compare.md), with
         the cost and the errors of each run.
         """
         wish = dict(levels=list(levels), modes=list(modes), sources=list(sources),

@@ -25,7 +25,7 @@ steps [s]; seconds_ready: and before them [s]."""
 
 
 class Study:
-    """A study, from a file (docs/studies.md), or from Python:
+    """A study, from a file (docs/reference/studies.md), or from Python:
 
         limber.Study(
             scenario="struck.toml",

@@ -15,8 +15,8 @@
 /// which call the law's own (coupler_law_kind.hpp).
 namespace limber::joints {
 
-/// Any law between two frames. A new law is added here, in docs/joints.md and
-/// in the contract tests of coupler laws.
+/// Any law between two frames. A new law is added here, to
+/// docs/reference/joints.md and to the contract tests of coupler laws.
 using CouplerLaw = std::variant<Bushing, PointSpring, Joint, Latch>;
 
 /// @throws NumericalError as the law does.

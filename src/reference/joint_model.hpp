@@ -10,7 +10,7 @@ namespace limber::reference {
 /// Simbody's model of our joints, which are couplers.
 enum class JointModel {
   /// Free bodies on force elements with the energy and dissipation of
-  /// docs/joints.md, implemented independently in the world frame.
+  /// docs/reference/joints.md, implemented independently in the world frame.
   bushings,
   /// Free bodies on Simbody's own LinearBushing: x-y-z angles in place of the
   /// chordal measure. Equal to first order in the small relative rotation.

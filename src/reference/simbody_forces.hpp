@@ -13,7 +13,7 @@ struct SimbodyFrame {
   SimTK::Transform X_LF;
 };
 
-/// Bushing of docs/joints.md, from its energy and dissipation.
+/// Bushing of docs/reference/joints.md, from its energy and dissipation.
 ///
 /// Equation   with the principal axes d_i and values D_i of D = tr(Kr) I/2 - Kr
 ///            V = p' Kt p / 2 + sum D_i (1 - d_i . R_FM d_i),
@@ -39,7 +39,7 @@ class ChordalBushing : public SimTK::Force::Custom::Implementation {
   SimTK::Vec3 strength_;  ///< D_i [N m]
 };
 
-/// Constraint springs of a universal joint of docs/joints.md.
+/// Constraint springs of a universal joint of docs/reference/joints.md.
 ///
 /// Equation   V = kt p' p / 2 + kr h^2 / 2, h = a . b with a on F, b on M;
 ///            dh/dt = w . (b x a), so the moment on M is

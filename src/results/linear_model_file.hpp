@@ -26,7 +26,7 @@ struct LinearRecord {
 };
 
 /// Writes MATLAB's format 5 (.mat), NumPy's (.npz) or JSON (.json), by the
-/// file's extension. Keys: docs/linearize.md.
+/// file's extension. Keys: docs/reference/linearize.md.
 /// @throws InputError for another extension, or if it cannot be written.
 void write_linear_model(const std::filesystem::path& file,
                         const LinearRecord& record);

@@ -10,7 +10,7 @@
 #include "limber/dynamics/system/system_state.hpp"
 
 /// Error of one simulation of a system relative to another, the reference:
-/// docs/compare.md.
+/// docs/reference/compare.md.
 namespace limber::results {
 
 /// Error of one field of displacements.

@@ -41,7 +41,7 @@ struct Scenery {
 
 /// Writes the group `scene`: texts, surfaces of flexible bodies with their
 /// shapes, shapes of rigid ones, couplers, lines of tendons, loads over time
-/// and contacts at outputs. docs/formats/files.md lists its datasets.
+/// and contacts at outputs. docs/reference/files.md lists its datasets.
 /// @throws InputError if it cannot be written.
 void write_scenery(Hdf5File& out, const Scenery& scenery,
                    const dynamics::SystemModel& model, const History& history);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does what docs/slurm.md says on a Slurm of this machine, with a node that dies.
+"""Does what docs/how-to/slurm.md says on a Slurm of this machine, with a node that dies.
 
   slurm_slow.py LIMBER SOURCE_FOLDER WORK_FOLDER
 
@@ -130,7 +130,7 @@ def kill_node(node, killed):
 
 def run_inside():
     """In the environment of scripts/slurm-here."""
-    blocks = read_blocks(source / "docs/slurm.md")
+    blocks = read_blocks(source / "docs/how-to/slurm.md")
     for block in blocks:
         if "file" in block.values:
             pathlib.Path(block.values["file"]).write_text(block.text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The law of docs/python.md damps the arm of the example as the built-in one does."""
+"""The law of docs/reference/python.md damps the arm of the example as the built-in one does."""
 
 import numpy
 import pytest

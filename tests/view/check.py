@@ -84,11 +84,11 @@ def find_largest(folder):
 
 
 def check_script(folder, points):
-    """The script of docs/view.md against the library, at the last output."""
+    """The script of docs/reference/view.md against the library, at the last output."""
     import h5py
     import numpy as np
     here = os.path.dirname(os.path.abspath(__file__))
-    with open(f"{here}/../../docs/view.md") as page:
+    with open(f"{here}/../../docs/reference/view.md") as page:
         script = page.read().split("```python\n")[1].split("```")[0]
     with h5py.File(f"{folder}/results.h5") as results:
         names = [n for n, body in results["scene/bodies"].items() if "surface" in body]

@@ -14,7 +14,7 @@
 #include "limber/common/progress.hpp"
 #include "limber/results/motion_error.hpp"
 
-/// The comparison of `limber compare`: docs/compare.md.
+/// The comparison of `limber compare`: docs/reference/compare.md.
 namespace limber::app {
 
 /// Difference of one probe column from the reference, over all output times.

@@ -7,7 +7,7 @@
 
 #include "limber/scene/build/scene.hpp"
 
-/// The runs of `limber compare`: docs/compare.md.
+/// The runs of `limber compare`: docs/reference/compare.md.
 namespace limber::app {
 
 /// How to simulate a scene. Unset values are those of the scenario.

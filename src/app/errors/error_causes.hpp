@@ -8,7 +8,7 @@
 #include "limber/app/run/run_scene.hpp"
 #include "limber/scene/build/scene.hpp"
 
-/// What the error of a run comes from: docs/errors.md.
+/// What the error of a run comes from: docs/reference/errors.md.
 namespace limber::app {
 
 /// One cause, with the run that shows it: the same scene with this alone done

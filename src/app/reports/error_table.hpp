@@ -7,7 +7,7 @@
 
 #include "limber/app/console/json.hpp"
 
-/// Errors of a run's probes by cause: docs/errors.md.
+/// Errors of a run's probes by cause: docs/reference/errors.md.
 namespace limber::app {
 
 /// Values of one column, at the outputs and of the peak over all steps.

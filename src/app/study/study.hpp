@@ -11,7 +11,7 @@
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/scene/text/setting.hpp"
 
-/// Contents of a study file. Plain values; docs/studies.md is the manual page.
+/// Contents of a study file, plain values. Manual: docs/reference/studies.md.
 namespace limber::app {
 
 /// Values one by one, each as TOML.

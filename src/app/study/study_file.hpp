@@ -32,8 +32,8 @@ struct StudyRecord {
   std::size_t shards = 1;
 };
 
-/// The results of a study, an SQLite file (docs/studies.md). Rows are written
-/// completely or not at all, even after kill -9.
+/// The results of a study, an SQLite file (docs/reference/studies.md). Rows
+/// are written completely or not at all, even after kill -9.
 class StudyFile {
  public:
   /// Creates the file, or continues one of the same study.

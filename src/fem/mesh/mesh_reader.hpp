@@ -12,7 +12,7 @@
 
 namespace limber::fem {
 
-/// Reads a mesh, or meshes a geometry; docs/formats/meshes.md lists the kinds.
+/// Reads a mesh, or meshes a geometry. Kinds: docs/reference/meshes.md.
 /// `size` and `order` belong to geometry; with a finished mesh they are errors,
 /// except order 2, which puts nodes in the middle of first-order elements'
 /// edges. Of a geometry with physical volumes only these are used, as when Gmsh

@@ -16,8 +16,8 @@
 /// which call the law's own (scalar_law_kind.hpp).
 namespace limber::joints {
 
-/// Any law along one coordinate. A new law is added here, in docs/joints.md and
-/// in the contract tests of scalar laws.
+/// Any law along one coordinate. A new law is added here, to
+/// docs/reference/joints.md and to the contract tests of scalar laws.
 using ScalarLaw = std::variant<ScalarSpring, Friction, EndStop, Drive>;
 
 /// A scalar law along one of a coupler's coordinates.

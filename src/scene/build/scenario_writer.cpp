@@ -44,7 +44,7 @@ class Mover {
   std::filesystem::path to_;
 };
 
-/// Every key of docs/formats/scenario.md that names a file.
+/// Every key of docs/reference/scenario.md that names a file.
 void move_paths(toml::table& root, const Mover& mover) {
   mover.move(root, "robot");
   if (toml::table* robot = root.get_as<toml::table>("robot")) {

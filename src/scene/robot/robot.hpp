@@ -23,7 +23,7 @@
 #include "limber/scene/robot/place.hpp"
 
 /// A robot as described by its URDF file with Limber's extension. Plain values;
-/// docs/formats/urdf.md is the manual page.
+/// docs/reference/urdf.md is the manual page.
 namespace limber::scene {
 
 /// <inertial> of a rigid link, expressed in the link's axes.

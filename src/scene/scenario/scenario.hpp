@@ -25,7 +25,7 @@
 #include "limber/scene/robot/robot_options.hpp"
 #include "limber/scene/scenario/contact_spec.hpp"
 
-/// Contents of a scenario file. Plain values; docs/formats/scenario.md is the
+/// Contents of a scenario file. Plain values; docs/reference/scenario.md is the
 /// manual page.
 namespace limber::scene {
 
@@ -59,7 +59,7 @@ struct PointProbeSpec {
   std::optional<Place> relative_to;
 };
 
-/// Quantities of couplers; docs/formats/scenario.md lists those of each kind.
+/// Quantities of couplers; docs/reference/scenario.md lists those of each kind.
 enum class CouplerQuantity {
   coordinate,                 ///< with full turns [rad or m]
   coordinate_rate,            ///< [rad/s or m/s]

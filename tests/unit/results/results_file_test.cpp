@@ -36,7 +36,7 @@ struct Expected {
   std::vector<std::uint64_t> shape;
 };
 
-// docs/formats/files.md, written out for the small run.
+// docs/reference/files.md, written out for the small run.
 std::map<std::string, Expected> expect_numbers(std::uint64_t outputs,
                                                std::uint64_t events) {
   const std::uint64_t t = outputs;

@@ -67,7 +67,7 @@ const dynamics::Transmission& transmission(const dynamics::SystemModel& model,
 }
 
 // Stiffness with which 1 kg (1 kg m^2) swings at 20 kHz, and the damping of
-// 10 % of critical: docs/joints.md.
+// 10 % of critical: docs/reference/joints.md.
 constexpr double kUnitStiffness = 16e8 * kPi * kPi;
 double default_damping(double stiffness, double mu) {
   return 0.2 * std::sqrt(stiffness * mu);
