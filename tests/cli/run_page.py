@@ -1,15 +1,47 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the files of a page in docs/ and runs its commands, one block after the
-other; fails at the first that fails.
+"""Writes the files of a page in docs/ and runs its commands and Python scripts, one
+block after the other; fails at the first that fails. The page finds the folders
+examples, models and meshes of the sources. Each line of a block `text shows=yes` is
+among those that the last one printed: words alike, numbers within 2 %, or two units of
+the last digit of a fraction, and anything after an ending "...".
 
-  run_page.py LIMBER SOURCE_FOLDER PAGE WORK_FOLDER
+  run_page.py LIMBER SOURCE_FOLDER PAGE WORK_FOLDER [PYTHON_FOLDER]
+
+Without the folder of the Python module, scripts that import it are skipped.
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def is_near(shown, printed):
+    digits, _, exponent = shown.partition("e")
+    places = len(digits.partition(".")[2])
+    last = 10.0 ** (int(exponent or 0) - places) if places or exponent else 0.0
+    return abs(float(shown) - float(printed)) <= max(0.02 * abs(float(shown)), 2.0 * last)
+
+
+def has_line(shown, output):
+    """Whether a line of the output is the shown one."""
+    is_cut = shown.endswith("...")
+    shown = " ".join(shown.removesuffix("...").split())
+    words, numbers = NUMBER.split(shown), NUMBER.findall(shown)
+    for line in (" ".join(line.split()) for line in output.splitlines()):
+        its_words, its_numbers = NUMBER.split(line), NUMBER.findall(line)
+        if is_cut:
+            its_words = its_words[:len(words)]
+            its_words[-1] = its_words[-1][:len(words[-1])]
+            its_numbers = its_numbers[:len(numbers)]
+        if its_words == words and all(map(is_near, numbers, its_numbers)):
+            return True
+    return False
+
 
 limber, source = (pathlib.Path(text).resolve() for text in sys.argv[1:3])
 page = source / sys.argv[3]
@@ -20,23 +52,36 @@ from page_blocks import read_blocks  # noqa: E402
 shutil.rmtree(work, ignore_errors=True)
 (work / "bin").mkdir(parents=True)
 (work / "bin/limber").symlink_to(limber)
+for folder in ("examples", "models", "meshes"):
+    (work / folder).symlink_to(source / folder)
 environment = {**os.environ, "LIMBER_CACHE": str(work / "cache"),
                "PATH": f"{work / 'bin'}:{os.environ['PATH']}"}
-commands = 0
+if len(sys.argv) > 5:
+    environment["PYTHONPATH"] = sys.argv[5]
+programs = {"sh": ["bash", "-euc"], "python": ["/usr/bin/python3", "-c"]}
+commands, output = 0, ""
 for block in read_blocks(page):
     if "file" in block.values:
         (work / block.values["file"]).write_text(block.text)
-    elif block.language == "sh":
+    elif block.language in programs:
+        if "import limber" in block.text and "PYTHONPATH" not in environment:
+            print(f"{page.name}:{block.line}: skipped: needs the Python module")
+            continue
         commands += 1
         print(f"{page.name}:{block.line}: {block.text}", flush=True)
-        result = subprocess.run(["bash", "-euc", block.text], cwd=work, env=environment,
-                                capture_output=True, text=True)
+        result = subprocess.run([*programs[block.language], block.text], cwd=work,
+                                env=environment, capture_output=True, text=True)
         print(result.stdout, result.stderr, sep="", flush=True)
+        output = result.stdout + result.stderr
         if result.returncode != 0:
             sys.exit(f"{page}:{block.line}: status {result.returncode}")
         expected = block.values.get("warns")
         warns = "limber: warning:" in result.stderr
         if expected is not None and warns != (expected == "yes"):
             sys.exit(f"{page}:{block.line}: warnings: expected {expected}")
+    elif "shows" in block.values:
+        lost = [line for line in block.text.splitlines() if not has_line(line, output)]
+        if lost:
+            sys.exit(f"{page}:{block.line}: not printed: " + "\n".join(lost))
 if commands == 0:
     sys.exit(f"{page} has no commands")
