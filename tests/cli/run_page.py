@@ -54,7 +54,7 @@ shutil.rmtree(work, ignore_errors=True)
 (work / "bin/limber").symlink_to(limber)
 for folder in ("examples", "models", "meshes"):
     (work / folder).symlink_to(source / folder)
-environment = {**os.environ, "LIMBER_CACHE": str(work / "cache"),
+environment = {"LIMBER_CACHE": str(work / "cache"), **os.environ,
                "PATH": f"{work / 'bin'}:{os.environ['PATH']}"}
 if len(sys.argv) > 5:
     environment["PYTHONPATH"] = sys.argv[5]
