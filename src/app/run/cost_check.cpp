@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/cost_check.hpp"
-
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 
+#include "limber/app/run/cost_check.hpp"
 #include "limber/app/run/probe_columns.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/files/scratch_folder.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/results/results_file.hpp"
@@ -23,29 +23,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMeasured = 0.5;  // wall time of the first steps [s]
 
-/// Removed by the destructor.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::error_code error;
-    std::string name =
-        (fs::temp_directory_path(error) / "limber-check-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw InputError("no temporary folder can be made; set TMPDIR");
-    }
-    path_ = name;
+ScratchFolder make_scratch() {
+  try {
+    return ScratchFolder(fs::temp_directory_path() / "limber-check-");
+  } catch (const std::system_error& error) {
+    throw InputError(
+        fmt::format("no temporary folder can be made ({}); set "
+                    "TMPDIR",
+                    error.code().message()));
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+}
 
 /// The start, as often as there are outputs.
 results::History repeat_start(const scene::BuiltScene& built, int outputs) {
@@ -65,7 +52,7 @@ results::History repeat_start(const scene::BuiltScene& built, int outputs) {
 }
 
 double measure_file(const PicturedScene& scene, int outputs) {
-  const ScratchFolder folder;
+  const ScratchFolder folder = make_scratch();
   const fs::path file = folder.path() / "results.h5";
   results::write_results(file, scene.built.model,
                          repeat_start(scene.built, outputs), &scene.scenery);

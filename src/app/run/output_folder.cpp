@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/run/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -18,6 +16,7 @@
 #include "limber/app/console/text_file.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
+#include "limber/common/files/scratch_folder.hpp"
 #include "limber/common/files/unfinished_files.hpp"
 
 namespace limber::app {
@@ -44,31 +43,14 @@ fs::path make_folder(const fs::path& folder) {
   return folder;
 }
 
-std::optional<fs::path> make_private_folder(const fs::path& start) {
-  std::string name = start.string() + "XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) return std::nullopt;
-  return name;
+/// A temporary folder beside the destination.
+ScratchFolder make_staging(const fs::path& folder) {
+  try {
+    return ScratchFolder(folder / kStaging);
+  } catch (const std::system_error& error) {
+    refuse(folder, error.code().message());
+  }
 }
-
-// A temporary folder beside the destination, removed by the destructor.
-class Staging {
- public:
-  explicit Staging(const fs::path& folder) {
-    const auto made = make_private_folder(folder / kStaging);
-    if (!made) refuse(folder, describe_errno());
-    path_ = *made;
-  }
-  Staging(const Staging&) = delete;
-  Staging& operator=(const Staging&) = delete;
-  ~Staging() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 Names find_files(const fs::path& folder) {
   Names names;
@@ -138,12 +120,17 @@ void replace_in_all(std::vector<std::string>& problems, const fs::path& made,
 }
 
 std::optional<fs::path> make_rescue_folder() {
+  constexpr const char* kPrefix = "limber-results-";
   const char* const asked = std::getenv("TMPDIR");
   const fs::path temporary = asked == nullptr ? "/tmp" : asked;
-  if (auto made = make_private_folder(temporary / "limber-results-")) {
-    return made;
+  for (const fs::path& prefix : {temporary / kPrefix, fs::path(kPrefix)}) {
+    try {
+      return make_private_folder(prefix);
+    } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch)
+      // The next one, if there is one.
+    }
   }
-  return make_private_folder(fs::path("limber-results-"));
+  return std::nullopt;
 }
 
 // Where the files were written instead; nothing if nowhere.
@@ -199,7 +186,7 @@ OutputFolder::OutputFolder(fs::path folder)
   }
   remove_stale_parts(path_);
   remove_stale_folders(path_);
-  const Staging probe(path_);
+  const ScratchFolder probe = make_staging(path_);
   write_text(probe.path() / "probe", "x");
 }
 
@@ -239,10 +226,10 @@ void OutputFolder::write(const Writer& writer) const {
 void OutputFolder::add(const Writer& writer) const { write_all(writer, false); }
 
 void OutputFolder::write_all(const Writer& writer, bool is_all) const {
-  std::optional<Staging> staging;
+  std::unique_ptr<const ScratchFolder> staging;
   std::vector<std::string> problems;
   try {
-    staging.emplace(path_);
+    staging.reset(new ScratchFolder(make_staging(path_)));
     writer(staging->path());
     place(staging->path(), is_all);
     return;
