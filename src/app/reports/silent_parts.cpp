@@ -10,8 +10,6 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/instant.hpp"
-#include "limber/dynamics/equations/pair_forces.hpp"
-#include "limber/joints/pairs/touching.hpp"
 
 namespace limber::app {
 namespace {
@@ -174,45 +172,41 @@ bool cut_to_common(std::vector<int>& a, std::vector<int>& b) {
 }
 
 void add_contacts(const scene::Scene& scene, const scene::BuiltScene& built,
+                  const std::vector<StartTouch>& touches,
                   std::vector<std::string>& silent) {
   const LinkReach reach(scene, built);
-  for (const dynamics::Pair& pair : built.model.pairs) {
-    const joints::Touching* law = pair.law->touching();
-    auto A = reach.find_chain(pair.body_A);
-    auto B = reach.find_chain(pair.body_B);
-    if (law == nullptr || !A || !B) continue;
+  for (const StartTouch& start : touches) {
+    if (!start.has_place()) continue;
+    auto A = reach.find_chain(start.pair->body_A);
+    auto B = reach.find_chain(start.pair->body_B);
+    if (!A || !B) continue;
     if (A->empty() && reach.has_fixed_root()) A = std::vector<int>{0};
     if (B->empty() && reach.has_fixed_root()) B = std::vector<int>{0};
     if (!cut_to_common(*A, *B)) continue;
-    const dynamics::PairMotion motion =
-        dynamics::find_pair_motion(built.model, pair, built.initial);
-    joints::PairResponse scratch = dynamics::make_response(built.model, pair);
-    const joints::PairTouch touch = law->find_touch(motion.bodies(), scratch);
-    if (touch.normal_W.isZero(0.0)) continue;  // the distance is not known
-    const double gap = -touch.depth;
-    const Vector3 half = 0.5 * gap * touch.normal_W;
-    const auto travel_A =
-        reach.find_travel(*A, law->find_reach_A().extent, touch.p_W - half);
-    const auto travel_B =
-        reach.find_travel(*B, law->find_reach_B().extent, touch.p_W + half);
+    const Vector3 half = 0.5 * start.gap * start.touch.normal_W;
+    const auto travel_A = reach.find_travel(
+        *A, start.law->find_reach_A().extent, start.touch.p_W - half);
+    const auto travel_B = reach.find_travel(
+        *B, start.law->find_reach_B().extent, start.touch.p_W + half);
     if (!travel_A || !travel_B) continue;
     const double travel = kTravelMargin * (*travel_A + *travel_B);
-    if (!(gap > travel)) continue;
+    if (!(start.gap > travel)) continue;
     silent.push_back(fmt::format(
         "contact '{}' never touches: {:.3g} m lie between both, whose joints "
         "let them come nearer by {:.3g} m at most",
-        pair.name, gap, travel));
+        start.pair->name, start.gap, travel));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> find_silent_parts(const scene::Scene& scene,
-                                           const scene::BuiltScene& built) {
+std::vector<std::string> find_silent_parts(
+    const scene::Scene& scene, const scene::BuiltScene& built,
+    const std::vector<StartTouch>& touches) {
   std::vector<std::string> silent;
   add_probes(scene, built, silent);
   add_loads(built, silent);
-  add_contacts(scene, built, silent);
+  add_contacts(scene, built, touches, silent);
   return silent;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/app/reports/start_touches.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene.hpp"
 
@@ -20,6 +21,7 @@ namespace limber::app {
 /// Limits     joints count as unlimited in rotation; free bodies, sliders
 ///            without stops and couplers that pull joints apart are not bounded
 [[nodiscard]] std::vector<std::string> find_silent_parts(
-    const scene::Scene& scene, const scene::BuiltScene& built);
+    const scene::Scene& scene, const scene::BuiltScene& built,
+    const std::vector<StartTouch>& touches);
 
 }  // namespace limber::app

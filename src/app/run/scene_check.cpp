@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/scene_check.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,12 +8,11 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/silent_parts.hpp"
 #include "limber/app/run/cost_check.hpp"
+#include "limber/app/run/scene_check.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/coupler_frequencies.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
-#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
-#include "limber/joints/pairs/touching.hpp"
 #include "limber/scene/scenario/time_settings_reader.hpp"
 
 namespace limber::app {
@@ -54,21 +51,6 @@ void check_frequencies(const scene::BuiltScene& built, SceneCheck& check) {
     check.joints.push_back({line.name, fastest[i++]});
   }
   check.frequencies = dynamics::find_natural_frequencies(model, built.initial);
-}
-
-void check_contacts(const scene::BuiltScene& built, SceneCheck& check) {
-  for (const dynamics::Pair& pair : built.model.pairs) {
-    const joints::Touching* law = pair.law->touching();
-    if (law == nullptr) continue;
-    const dynamics::PairMotion motion =
-        dynamics::find_pair_motion(built.model, pair, built.initial);
-    joints::PairResponse scratch = dynamics::make_response(built.model, pair);
-    const joints::PairTouch touch = law->find_touch(motion.bodies(), scratch);
-    const bool has_place = !touch.normal_W.isZero(0.0);
-    check.contacts.push_back(
-        {pair.name,
-         has_place ? -touch.depth : law->find_clearance(motion.bodies())});
-  }
 }
 
 bool has_stiffness(const dynamics::CouplerOptions& options) {
@@ -137,9 +119,12 @@ SceneCheck check_scene(const scene::Scene& scene,
     check.mass += body.mass;
   }
   check_frequencies(built, check);
-  check_contacts(built, check);
+  const std::vector<StartTouch> touches = find_start_touches(built);
+  for (const StartTouch& start : touches) {
+    check.contacts.push_back({start.pair->name, start.gap});
+  }
   check.stable_step = find_stable_limit(built);
-  check.silent = find_silent_parts(scene, built);
+  check.silent = find_silent_parts(scene, built, touches);
   check.warnings = built.warnings;
   add_choices(scene, built, check);
   check.cost = check_cost(pictured);
