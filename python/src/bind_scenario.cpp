@@ -9,6 +9,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/run_scenery.hpp"
+#include "limber/app/run/unstable_loop.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -205,6 +206,34 @@ TEST_F(AController, IsRefusedBeforeTheRunWithWhatIsWrong) {
                  "[[controller]]\nname = 'pd'\nperiod = 0.1\nmeasures = "
                  "'angle.q'\nproportional = 1.0\n[[probe]]\nname = 'angle'",
                  "given twice");
+}
+
+TEST_F(AController, WhoseLoopIsUnstableHasTheSameWarningInACheck) {
+  const std::string gains =
+      "--set controller.pd.proportional=300 --set "
+      "controller.pd.derivative=100 ";
+  const json wild = run(gains);
+  const std::vector<std::string> warnings =
+      wild["warnings"].get<std::vector<std::string>>();
+  const auto unstable = std::find_if(
+      warnings.begin(), warnings.end(), [](const std::string& text) {
+        return text.find("the sampled loop is unstable") != std::string::npos;
+      });
+  ASSERT_NE(unstable, warnings.end());
+  const CommandResult check = place_.limber("check s.toml --json " + gains);
+  const json found = json::parse(check.out, nullptr, false);
+  EXPECT_THAT(found["warnings"].get<std::vector<std::string>>(),
+              ::testing::Contains(*unstable));
+  EXPECT_EQ(found["sample_periods"]["pd"], kPeriod);
+}
+
+TEST_F(AController, CutsTheStepsOfACheckAtItsSamples) {
+  place_.write("s.toml", text_);
+  EXPECT_THAT(place_.limber("check s.toml").out,
+              HasSubstr("steps end at samples of controller 'pd', every 0.02 "
+                        "s\n"));
+  EXPECT_THAT(place_.limber("check s.toml --set controller.pd.period=5e-4").out,
+              HasSubstr("every 0.0005 s: none is longer"));
 }
 
 // The loop is stable if and only if T < 2 I / kd = 8 ms (Jury's criterion); of

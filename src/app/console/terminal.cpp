@@ -126,6 +126,13 @@ Progress make_progress_bar() {
       };
 }
 
+Progress delay_progress(const Progress& bar) {
+  constexpr double kShort = 1.0;  // [s]
+  return [bar, begun = now()](std::string_view what, double fraction) {
+    if (is_terminal() && now() - begun > kShort) report(bar, what, fraction);
+  };
+}
+
 void clear_progress_bar() {
   if (!is_terminal()) return;
   fmt::print(stderr, "\r\033[K");

@@ -12,6 +12,10 @@ namespace limber::app {
 /// long.
 [[nodiscard]] Progress make_progress_bar();
 
+/// Passes reports to `bar` from a second after this call on, if standard error
+/// is a terminal: for work that is mostly short.
+[[nodiscard]] Progress delay_progress(const Progress& bar);
+
 /// Removes the bar, so that other lines can follow.
 void clear_progress_bar();
 

@@ -153,6 +153,22 @@ std::string describe_system(const SceneCheck& check) {
   return text + "\n";
 }
 
+/// Steps end at samples of controllers.
+std::string describe_samples(const SceneCheck& check) {
+  if (check.controllers.empty()) return "";
+  const ControllerCheck& fastest = *std::min_element(
+      check.controllers.begin(), check.controllers.end(),
+      [](const auto& a, const auto& b) { return a.period < b.period; });
+  const bool cuts =
+      has_tolerance(check) || fastest.period < check.settings.step;
+  return fmt::format("          steps end at samples of {}, every {:.4g} s{}\n",
+                     check.controllers.size() == 1
+                         ? fmt::format("controller '{}'", fastest.name)
+                         : fmt::format("{} controllers, most often of '{}'",
+                                       check.controllers.size(), fastest.name),
+                     fastest.period, cuts ? ": none is longer" : "");
+}
+
 std::string describe_step(const SceneCheck& check) {
   const dynamics::SimulationSettings& settings = check.settings;
   const std::string outputs = fmt::format("{:.4g} s in all, {} outputs",
@@ -161,7 +177,8 @@ std::string describe_step(const SceneCheck& check) {
   const std::string& scheme = to_string(settings.integrator);
   if (has_tolerance(check)) {
     return fmt::format("step      by the tolerance of {:.3g} m ({}), {}\n",
-                       settings.tolerance, scheme, outputs);
+                       settings.tolerance, scheme, outputs) +
+           describe_samples(check);
   }
   std::string text = fmt::format(
       "step      {:.3g} s ({}), {}\n          resolves motion up to {:.4g} Hz "
@@ -171,7 +188,8 @@ std::string describe_step(const SceneCheck& check) {
   const std::string rest = check.stable_step       ? describe_stability(check)
                            : has_unresolved(check) ? describe_scheme(settings)
                                                    : "";
-  return text + (rest.empty() ? "" : "; " + rest) + "\n";
+  return text + (rest.empty() ? "" : "; " + rest) + "\n" +
+         describe_samples(check);
 }
 
 std::string describe_contacts(const SceneCheck& check) {
@@ -246,6 +264,7 @@ Json to_json(const SceneCheck& check) {
       {"bodies", Json::array()},
       {"joints", Json::array()},
       {"contacts", Json::array()},
+      {"sample_periods", Json::object()},
       {"silent", check.silent},
       {"problems", check.problems},
       {"warnings", check.warnings},
@@ -264,6 +283,9 @@ Json to_json(const SceneCheck& check) {
   for (const JointCheck& joint : check.joints) {
     json["joints"].push_back(
         {{"name", joint.name}, {"fastest_hz", joint.fastest_hz}});
+  }
+  for (const ControllerCheck& controller : check.controllers) {
+    json["sample_periods"][controller.name] = controller.period;
   }
   for (const ContactCheck& contact : check.contacts) {
     json["contacts"].push_back({{"pair", contact.pair}, {"gap", contact.gap}});

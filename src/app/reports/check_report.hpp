@@ -33,6 +33,11 @@ struct ContactCheck {
   double gap = 0.0;  ///< negative where they overlap [m]
 };
 
+struct ControllerCheck {
+  std::string name;
+  double period = 0.0;  ///< of its samples, at each of which a step ends [s]
+};
+
 /// Cost of a run, from its first steps.
 struct CostCheck {
   long steps = 0;        ///< number of steps measured
@@ -61,6 +66,7 @@ struct SceneCheck {
   /// Longest step at which an explicit scheme is stable [s].
   std::optional<double> stable_step;
   std::vector<ContactCheck> contacts;
+  std::vector<ControllerCheck> controllers;
   std::vector<std::string> silent;    ///< parts that cannot answer
   std::vector<std::string> problems;  ///< that end the run
   std::vector<std::string> warnings;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/run_scene.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -10,12 +12,11 @@
 #include "limber/app/reports/cut_contacts.hpp"
 #include "limber/app/run/probe_columns.hpp"
 #include "limber/app/run/run_manifest.hpp"
-#include "limber/app/run/run_scene.hpp"
+#include "limber/app/run/unstable_loop.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/simulation/tolerance_loop.hpp"
 #include "limber/scene/build/build_system.hpp"
-#include "limber/scene/control/closed_loop.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
 
 namespace limber::app {
@@ -120,13 +121,6 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   return run;
 }
 
-std::optional<std::string> find_unstable_loop(const scene::Scene& scene,
-                                              const scene::BuiltScene& built) {
-  return scene::describe_unstable_loop(scene.scenario, built.model,
-                                       built.initial, built.probes,
-                                       built.settings);
-}
-
 double repeat_timing(const Run& run, const Progress& progress) {
   results::History history;
   dynamics::SimulationStatistics statistics;
@@ -141,7 +135,10 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
   PicturedScene made = build_pictured(scene, make_reducer(progress), cache,
                                       make_full_maker(progress));
   warn_of_unused_cache(cache, made.built);
-  const auto unstable = find_unstable_loop(scene, made.built);
+  clear_progress_bar();
+  print_more_notes(scene, made.built.notes);
+  print_warnings(made.built.warnings);
+  const auto unstable = find_unstable_loop(scene, made.built, progress);
   if (unstable) {
     clear_progress_bar();
     print_warnings({*unstable});
@@ -150,11 +147,7 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
                               checkpoints, true);
   if (unstable) run.printed_warnings.push_back(*unstable);
   clear_progress_bar();
-  print_more_notes(scene, run.built.notes);
-  std::vector<std::string> warnings = run.built.warnings;
-  warnings.insert(warnings.end(), run.statistics.warnings.begin(),
-                  run.statistics.warnings.end());
-  print_warnings(warnings);
+  print_warnings(run.statistics.warnings);
   return run;
 }
 

@@ -72,11 +72,6 @@ struct Run {
                             const std::filesystem::path& cache,
                             const CheckpointPlan& checkpoints = {});
 
-/// Controllers whose sampled loop is unstable about the start, as a warning
-/// (scene::describe_unstable_loop).
-[[nodiscard]] std::optional<std::string> find_unstable_loop(
-    const scene::Scene& scene, const scene::BuiltScene& built);
-
 /// Wall time of simulating the run again, outputs included [s].
 [[nodiscard]] double repeat_timing(const Run& run, const Progress& progress);
 

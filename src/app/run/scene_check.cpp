@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/scene_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/silent_parts.hpp"
 #include "limber/app/run/cost_check.hpp"
-#include "limber/app/run/scene_check.hpp"
+#include "limber/app/run/unstable_loop.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/coupler_frequencies.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
@@ -125,7 +128,13 @@ SceneCheck check_scene(const scene::Scene& scene,
   }
   check.stable_step = find_stable_limit(built);
   check.silent = find_silent_parts(scene, built, touches);
+  for (const dynamics::ControllerModel& controller : built.model.controllers) {
+    check.controllers.push_back({controller.name, controller.period});
+  }
   check.warnings = built.warnings;
+  if (auto unstable = find_unstable_loop(scene, built, progress)) {
+    check.warnings.push_back(std::move(*unstable));
+  }
   add_choices(scene, built, check);
   check.cost = check_cost(pictured);
   if (!check.cost.failure.empty()) {

@@ -155,9 +155,11 @@ std::vector<LoopController> change_periods(
 // loop stable.
 std::optional<double> find_stable_filter(
     const dynamics::SystemModel& model, const ClosedLoop& loop,
-    const std::vector<std::size_t>& changed) {
+    const std::vector<std::size_t>& changed, const Progress& progress) {
   const double period = loop.controllers[changed.front()].period;
   for (double factor = 1.0; factor <= kLongestFilter; factor *= 2.0) {
+    report(progress, "search for a stable filter",
+           std::log(factor) / std::log(kLongestFilter));
     std::vector<LoopController> controllers = loop.controllers;
     for (const std::size_t i : changed) {
       dynamics::PidParameters parameters =
@@ -175,9 +177,11 @@ std::optional<double> find_stable_filter(
 // delays and the other periods are multiples of.
 std::optional<double> find_stable_period(
     const dynamics::SystemModel& model, const ClosedLoop& loop,
-    const std::vector<std::size_t>& changed) {
+    const std::vector<std::size_t>& changed, const Progress& progress) {
   const double period = loop.controllers[changed.front()].period;
   for (double factor = 0.5; factor >= kShortest; factor *= 0.5) {
+    report(progress, "search for a stable period",
+           std::log(2.0 * factor) / std::log(kShortest));
     try {
       SampledLoop trial(*loop.plant, change_periods(model, loop.controllers,
                                                     changed, factor));
@@ -204,14 +208,16 @@ std::string describe_loops(const dynamics::SystemModel& model,
 
 std::string describe_remedy(const dynamics::SystemModel& model,
                             const ClosedLoop& loop,
-                            const SampledLoop::Instability& found) {
-  if (const auto stable = find_stable_period(model, loop, found.loops)) {
+                            const SampledLoop::Instability& found,
+                            const Progress& progress) {
+  if (const auto stable =
+          find_stable_period(model, loop, found.loops, progress)) {
     return fmt::format("with a period of {:.6g} s it is stable", *stable);
   }
   if (found.loops.size() < loop.controllers.size()) {
     std::vector<std::size_t> all(loop.controllers.size());
     std::iota(all.begin(), all.end(), 0U);
-    if (const auto stable = find_stable_period(model, loop, all)) {
+    if (const auto stable = find_stable_period(model, loop, all, progress)) {
       return fmt::format("with all periods {:.3g} times as long it is stable",
                          *stable / loop.controllers.front().period);
     }
@@ -219,7 +225,8 @@ std::string describe_remedy(const dynamics::SystemModel& model,
   const std::string no_period =
       fmt::format("no period down to {:.2g} s makes it stable",
                   kShortest * loop.controllers[found.loops.front()].period);
-  if (const auto filter = find_stable_filter(model, loop, found.loops)) {
+  if (const auto filter =
+          find_stable_filter(model, loop, found.loops, progress)) {
     return fmt::format("{}, but filter = {:.3g} does", no_period, *filter);
   }
   return no_period + ": check the signs and sizes of its gains and its delay";
@@ -248,6 +255,7 @@ struct Judged {
   const ClosedLoop& loop;
   const std::optional<SampledLoop::Instability>& exact;
   double visible = 0.0;  // least growth that is seen in the run [1/s]
+  const Progress& progress;
 
   [[nodiscard]] std::optional<SampledLoop::Instability> find_false(
       const dynamics::LoopSteps& steps) const {
@@ -261,6 +269,8 @@ struct Judged {
 
 std::string find_better_step(const Judged& judged, dynamics::LoopSteps steps) {
   for (int parts = 2; parts <= kMostSteps; parts *= 2) {
+    report(judged.progress, "search for a step",
+           std::log(0.5 * parts) / std::log(kMostSteps));
     steps.longest *= 0.5;
     if (!judged.find_false(steps)) {
       return fmt::format("take a step of {:.3g} s", steps.longest);
@@ -281,7 +291,8 @@ std::optional<std::string> describe_false_vibration(
       judged.exact
           ? fmt::format("grows tenfold in {:.2g} s; {}",
                         std::log(10.0) / judged.exact->growth,
-                        describe_remedy(model, judged.loop, *judged.exact))
+                        describe_remedy(model, judged.loop, *judged.exact,
+                                        judged.progress))
           : "is stable; " + find_better_step(judged, *steps);
   return fmt::format(
       "{}: with a step of {:.3g} s the sampled loop vibrates at {:.3g} Hz, "
@@ -304,19 +315,21 @@ ClosedLoop find_closed_loop(const dynamics::SystemModel& model,
 
 std::string describe_instability(const dynamics::SystemModel& model,
                                  const ClosedLoop& loop,
-                                 const SampledLoop::Instability& found) {
+                                 const SampledLoop::Instability& found,
+                                 const Progress& progress) {
   return fmt::format(
       "{}: the sampled loop is unstable at {:.3g} Hz, growing tenfold in "
       "{:.2g} "
       "s; {}",
       describe_loops(model, found.loops), found.frequency,
-      std::log(10.0) / found.growth, describe_remedy(model, loop, found));
+      std::log(10.0) / found.growth,
+      describe_remedy(model, loop, found, progress));
 }
 
 std::optional<std::string> describe_unstable_loop(
     const Scenario& scenario, const dynamics::SystemModel& model,
     const dynamics::SystemState& state, const std::vector<Probe>& probes,
-    const dynamics::SimulationSettings& settings) {
+    const dynamics::SimulationSettings& settings, const Progress& progress) {
   if (model.controllers.empty() || !model.full_bodies.empty()) {
     return std::nullopt;
   }
@@ -332,10 +345,10 @@ std::optional<std::string> describe_unstable_loop(
     const double visible =
         std::log(kVisibleGrowth) / (settings.end_time - state.t);
     auto text = describe_false_vibration(
-        smooth, {loop, found, visible},
+        smooth, {loop, found, visible, progress},
         find_steps(settings, linear.system.coordinates));
     if (!text && growth_of(found) >= visible) {
-      text = describe_instability(smooth, loop, *found);
+      text = describe_instability(smooth, loop, *found, progress);
     }
     if (text) *text += kLimits;
     return text;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/progress.hpp"
 #include "limber/dynamics/analysis/sampled_loop.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/scene/control/linear_scene.hpp"
@@ -27,7 +28,8 @@ struct ClosedLoop {
 /// period at which the loop is stable, if there is one.
 [[nodiscard]] std::string describe_instability(
     const dynamics::SystemModel& model, const ClosedLoop& loop,
-    const dynamics::SampledLoop::Instability& found);
+    const dynamics::SampledLoop::Instability& found,
+    const Progress& progress = {});
 
 /// The controllers whose sampled loop is unstable about a state, with a period
 /// at which it is stable, if there is one; or that the steps make it vibrate,
@@ -41,6 +43,7 @@ struct ClosedLoop {
 [[nodiscard]] std::optional<std::string> describe_unstable_loop(
     const Scenario& scenario, const dynamics::SystemModel& model,
     const dynamics::SystemState& state, const std::vector<Probe>& probes,
-    const dynamics::SimulationSettings& settings);
+    const dynamics::SimulationSettings& settings,
+    const Progress& progress = {});
 
 }  // namespace limber::scene
