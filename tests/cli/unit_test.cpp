@@ -114,7 +114,7 @@ void write_arm(const Workspace& place, const std::string& modulus,
                   scenario);
 }
 
-TEST(Questions, AreAskedAboutValuesOfAnotherUnit) {
+TEST(Units, ThatAreDoubtfulAreQuestioned) {
   const Workspace place;
   write_arm(place, "200e3",
             "[gravity]\nacceleration = [0, 0, -9810]\n"
@@ -125,7 +125,7 @@ TEST(Questions, AreAskedAboutValuesOfAnotherUnit) {
   EXPECT_THAT(result.errors, HasSubstr("gravity is 9810 m/s^2"));
 }
 
-TEST(Questions, AreNotAskedOtherwise) {
+TEST(Units, ThatAreUsualAreNotQuestioned) {
   const Workspace place;
   write_arm(place, "200e9",
             "[gravity]\nacceleration = [0, 0, -9.81]\n"

@@ -198,6 +198,26 @@ void add_contacts(const scene::Scene& scene, const scene::BuiltScene& built,
   }
 }
 
+void add_shapes(const scene::Scene& scene, std::vector<std::string>& silent) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.robot.tree_size(); ++i) {
+    const scene::Link& link = scene.robot.links[i];
+    const scene::Toucher body = {false, i};
+    const bool touches =
+        std::any_of(scene.touching.begin(), scene.touching.end(),
+                    [&](const scene::TouchingPair& pair) {
+                      return pair.A == body || pair.B == body;
+                    });
+    if (!link.collisions.empty() && !touches) names.push_back(link.name);
+  }
+  if (names.empty()) return;
+  silent.push_back(fmt::format(
+      "<collision> of link '{}'{}: no [[contact]] names it, so that it passes "
+      "through everything",
+      names.front(),
+      names.size() == 1 ? "" : fmt::format(" and {} more", names.size() - 1)));
+}
+
 }  // namespace
 
 std::vector<std::string> find_silent_parts(
@@ -207,6 +227,7 @@ std::vector<std::string> find_silent_parts(
   add_probes(scene, built, silent);
   add_loads(built, silent);
   add_contacts(scene, built, touches, silent);
+  add_shapes(scene, silent);
   return silent;
 }
 

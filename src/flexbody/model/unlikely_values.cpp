@@ -29,7 +29,7 @@ std::vector<std::string> question_material(const MaterialRegion& region) {
 
 std::vector<std::string> question_size(const Vector3& size, double mass) {
   constexpr double kLongest = 100.0;  // [m]
-  constexpr double kHeaviest = 1e8;   // [kg]
+  constexpr double kHeaviest = 1e6;   // [kg]
   const double length = size.maxCoeff();
   if (length <= kLongest && mass <= kHeaviest) return {};
   return {

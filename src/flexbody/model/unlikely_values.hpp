@@ -15,7 +15,7 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<std::string> question_material(
     const MaterialRegion& region);
 
-/// Of a part longer than 100 m or heavier than 1e8 kg.
+/// Of a part longer than 100 m or heavier than 1e6 kg.
 [[nodiscard]] std::vector<std::string> question_size(const Vector3& size,
                                                      double mass);
 

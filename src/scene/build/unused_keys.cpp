@@ -39,6 +39,8 @@ class Finder {
     look_at_contact_defaults();
     look_at_stribeck_speeds();
     look_at_obstacles();
+    look_at_surfaces();
+    look_at_projectiles();
     look_at_packages();
     return std::move(texts_);
   }
@@ -287,16 +289,39 @@ class Finder {
     }
   }
 
+  [[nodiscard]] bool is_touching(const Toucher& body) const {
+    return std::any_of(touching_.begin(), touching_.end(),
+                       [&](const TouchingPair& pair) {
+                         return pair.A == body || pair.B == body;
+                       });
+  }
+
   void look_at_obstacles() {
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
-      const Toucher obstacle = {true, i};
-      const bool touches = std::any_of(
-          touching_.begin(), touching_.end(), [&](const TouchingPair& pair) {
-            return pair.A == obstacle || pair.B == obstacle;
-          });
-      if (touches) continue;
+      if (is_touching({true, i})) continue;
       tell("obstacle '" + scenario_.obstacles[i].name + "'",
            "no [[contact]] names it");
+    }
+  }
+
+  void look_at_surfaces() {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const LinkContact& contact = links_[i].contact;
+      const bool is_given = contact.material || !contact.surfaces.empty();
+      if (!is_given || is_touching({false, i})) continue;
+      tell("<contact> of link '" + links_[i].name + "'",
+           "no [[contact]] names it");
+    }
+  }
+
+  void look_at_projectiles() {
+    const std::size_t first = links_.size() - scenario_.projectiles.size();
+    for (std::size_t i = first; i < links_.size(); ++i) {
+      if (is_touching({false, i})) continue;
+      texts_.push_back(
+          fmt::format("projectile '{}' passes through everything: no "
+                      "[[contact]] names it",
+                      links_[i].name));
     }
   }
 

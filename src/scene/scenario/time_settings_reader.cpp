@@ -74,6 +74,15 @@ void check_steps(double interval, const dynamics::SimulationSettings& settings,
       longest, interval));
 }
 
+void check_interval(double interval, double duration,
+                    std::vector<std::string>& warnings) {
+  if (interval <= duration) return;
+  warnings.push_back(fmt::format(
+      "[time] output_interval, {:g} s, is longer than the run of {:g} s: its "
+      "start and end are the only outputs; is it in seconds?",
+      interval, duration));
+}
+
 std::vector<double> read_output_times(
     TomlTable& table, const dynamics::SimulationSettings& settings,
     std::vector<std::string>& warnings) {
@@ -83,7 +92,10 @@ std::vector<double> read_output_times(
   if (times && interval) {
     table.fail("has both 'output_times' and 'output_interval'; keep one");
   }
-  if (interval) check_steps(*interval, settings, warnings);
+  if (interval) {
+    check_steps(*interval, settings, warnings);
+    check_interval(*interval, end, warnings);
+  }
   if (!times && !interval && settings.tolerance > 0.0) {
     return even_times(end, end / kOutputsOfTolerance);
   }

@@ -40,7 +40,11 @@ TEST(UnusedContactKeys, AreNoneWhereAllAct) {
 TEST(UnusedContactKeys, AreDefaultsThatNoContactTakes) {
   EXPECT_THAT(warnings_of("[contact_default]\n" + kOptions),
               ElementsAre("[contact_default] changes nothing: there is no "
-                          "[[contact]]"));
+                          "[[contact]]",
+                          "projectile 'a' passes through everything: no "
+                          "[[contact]] names it",
+                          "projectile 'b' passes through everything: no "
+                          "[[contact]] names it"));
   EXPECT_THAT(warnings_of("[contact_default]\n" + kOptions +
                           "[[contact]]\nbetween = ['a', 'b']\nfriction = "
                           "0.1\ndamping = 0.1\n"),
