@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/shell.hpp"
 #include "limber/common/files/hdf5_file.hpp"
 #include "limber/results/scenery.hpp"
 #include "places.hpp"
@@ -83,6 +84,18 @@ TEST(View, NamesLinksWhoseSurfaceWasKeptInPart) {
   expect_refused(place, "view o",
                  AllOf(HasSubstr("not all nodes on the surface of link 'beam'"),
                        HasSubstr("rows=\"boundary\"")));
+}
+
+// A copy of the command has no page beside it.
+TEST(View, RefusesARunWhosePageIsMissingBeforeItsFirstStep) {
+  const Workspace place;
+  write_scene(place, "boundary");
+  const CommandResult result =
+      run_shell(place, "cp '" LIMBER_COMMAND
+                       "' own && ./own run beam.toml --out o --view");
+  EXPECT_EQ(result.status, 2) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("is not there: looked for"));
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "o"));
 }
 
 TEST(View, RefusesWhatIsNoResult) {

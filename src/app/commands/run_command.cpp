@@ -22,6 +22,7 @@
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/results/checkpoint_file.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "limber/view/page.hpp"
 
 namespace limber::app {
 namespace {
@@ -70,6 +71,7 @@ void estimate_errors(Run& run, const std::string& cache) {
 }
 
 void run_scenario(const RunOptions& options) {
+  if (options.views) view::find_template();  // before a long run
   scene::Overrides overrides =
       to_overrides(options.settings_given, options.fidelity);
   std::string scenario = options.scenario;
