@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <string_view>
 
+#include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/scene/text/setting.hpp"
 
 namespace limber::app {
 namespace {
@@ -43,17 +47,49 @@ double share_of_time(const RunSummary& run, const char* part) {
              : found->second / run.seconds;
 }
 
+std::string name_scenario(const RunSummary& run) {
+  return run.scenario.empty() ? "SCENARIO" : "'" + run.scenario + "'";
+}
+
+/// "--set PATH=VALUE", in quotes where a shell would change it.
+std::string describe_setting(const std::string& path,
+                             const std::string& value) {
+  const std::string text = path + "=" + value;
+  const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("._=-+/").find(c) != std::string_view::npos;
+  });
+  return is_plain ? "--set " + text : "--set '" + text + "'";
+}
+
+/// What a run that failed by its integrator can take instead.
+void add_integrator(const RunSummary& run, Weighted& all) {
+  const std::string alpha = "generalized-alpha";
+  if (run.integrator.empty() || run.integrator == alpha) return;
+  const bool is_implicit =
+      dynamics::traits_of(dynamics::parse_integrator(run.integrator))
+          .is_implicit;
+  all.insert(
+      {8.5,
+       {"--set time.integrator=" + alpha,
+        is_implicit ? fmt::format("{} failed; that scheme damps vibration that "
+                                  "its steps do not resolve",
+                                  run.integrator)
+                    : fmt::format("steps of {} must resolve the fastest "
+                                  "vibration, those of that scheme need not",
+                                  run.integrator)}});
+}
+
 void add_end(const RunSummary& run, Weighted& all) {
   if (run.has_checkpoint &&
       (run.end == RunEnd::killed || run.end == RunEnd::stopped)) {
     all.insert({10.0,
                 {fmt::format("limber run {} --resume --out '{}'",
-                             run.scenario.empty() ? "SCENARIO"
-                                                  : "'" + run.scenario + "'",
-                             run.folder),
+                             name_scenario(run), run.folder),
                  "a checkpoint is there, from which the run continues"}});
   }
   if (run.end != RunEnd::failed) return;
+  add_integrator(run, all);
   const RunSummary::Steps* failed = find_limit(run, "failure");
   if (run.tolerance > 0.0) {
     all.insert(
@@ -80,6 +116,16 @@ void add_end(const RunSummary& run, Weighted& all) {
                fmt::format("the results until the failure at {:.6g} s are "
                            "there, and show what moves too far",
                            run.reached)}});
+  all.insert({7.0,
+              {"limber check " + name_scenario(run),
+               "it lists overlaps at the start, the frequencies that the step "
+               "does not resolve, and doubtful values"}});
+}
+
+bool has_level(const RunSummary& run, const std::string& level) {
+  return std::any_of(
+      run.levels.begin(), run.levels.end(),
+      [&](const RunSummary::Level& own) { return own.used == level; });
 }
 
 void add_energy(const RunSummary& run, Weighted& all) {
@@ -97,7 +143,10 @@ void add_energy(const RunSummary& run, Weighted& all) {
   }
   all.insert(
       {weight, {fmt::format("--set time.step={:.3g}", 0.5 * run.step), why}});
-  if (run.integrator == "energy-conserving") return;
+  const bool can_conserve = run.integrator != "energy-conserving" &&
+                            !has_level(run, "full") &&
+                            !has_level(run, "one-way");
+  if (!can_conserve) return;
   all.insert({weight - 0.5,
               {"--set time.integrator=energy-conserving",
                why + "; that scheme keeps it to round-off"}});
@@ -152,6 +201,46 @@ void add_limits(const RunSummary& run, Weighted& all) {
   }
 }
 
+void add_level(const RunSummary& run, Weighted& all) {
+  std::vector<RunSummary::Level> levels = run.levels;
+  std::erase_if(levels, [](const RunSummary::Level& level) {
+    return !level.is_more_than_needed;
+  });
+  if (levels.empty()) return;
+  const RunSummary::Level& first = levels.front();
+  const std::string others =
+      levels.size() == 1
+          ? ""
+          : fmt::format("; {} more likewise ('levels' in summary.json)",
+                        levels.size() - 1);
+  all.insert(
+      {1.8,
+       {describe_setting("fidelity.links." + scene::quote_part(first.body),
+                         first.recommended),
+        fmt::format("the motion of '{}' does not need level {}{}", first.body,
+                    first.used, others)}});
+}
+
+/// Of a finished run: its errors, if they are not known, and steps to a
+/// tolerance.
+void add_checks(const RunSummary& run, Weighted& all) {
+  if (run.end != RunEnd::finished) return;
+  if (!run.has_errors) {
+    all.insert({0.5,
+                {fmt::format("limber run {} --errors", name_scenario(run)),
+                 "the record has no errors of its probes; that run estimates "
+                 "them by cause"}});
+  }
+  if (run.tolerance == 0.0 && run.integrator == "generalized-alpha" &&
+      share_of(run, "given") > 0.9) {
+    all.insert(
+        {0.8,
+         {run.step_changes > 0 ? "--unset time.steps" : "--unset time.step",
+          "all steps have the length that was given; without it they "
+          "follow a tolerance that Limber chooses"}});
+  }
+}
+
 void add_time(const RunSummary& run, Weighted& all) {
   if (const double contact = share_of_time(run, "contact");
       contact > kMuchTime && !run.meshed.empty()) {
@@ -178,15 +267,7 @@ void add_time(const RunSummary& run, Weighted& all) {
                              "where 2 or 3 are usual",
                              iterations)}});
   }
-  for (const RunSummary::Level& level : run.levels) {
-    if (!level.is_more_than_needed) continue;
-    all.insert({1.8,
-                {fmt::format("--set fidelity.links.{}={}", level.body,
-                             level.recommended),
-                 fmt::format("the motion of '{}' does not need level {}",
-                             level.body, level.used)}});
-    break;
-  }
+  add_level(run, all);
   if (run.end == RunEnd::finished && run.tolerance == 0.0 && run.halved == 0 &&
       run.open_share && *run.open_share < kLittleError &&
       share_of(run, "given") > 0.9 && iterations < 3.0) {
@@ -213,6 +294,7 @@ std::vector<NextStep> find_next_steps(const RunSummary& run) {
   add_energy(run, all);
   add_limits(run, all);
   add_time(run, all);
+  add_checks(run, all);
   std::vector<NextStep> steps;
   for (const auto& [weight, step] : all) {
     const bool is_known = std::any_of(

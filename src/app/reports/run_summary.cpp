@@ -72,6 +72,7 @@ void read_steps(const Json& json, RunSummary& run) {
   run.tolerance = get_or(json, "tolerance", 0.0);
   run.integrator = read_text(json.at("integrator"));
   run.step = json.at("step").get<double>();
+  run.step_changes = get_or(json, "step_changes", 0L);
   run.seconds_offline = json.at("seconds_offline").get<double>();
   run.seconds = json.at("seconds_online").get<double>();
   const Json& limits = json.at("step_limits");
@@ -113,6 +114,7 @@ void read_lists(const Json& json, RunSummary& run) {
   if (json.contains("contact_meshes")) {
     run.meshed = read_texts(json["contact_meshes"]);
   }
+  run.has_errors = json.contains("errors");
   run.warnings = read_texts(json.at("warnings"));
 }
 

@@ -42,6 +42,7 @@ struct RunSummary {
   bool has_checkpoint = false;
   std::string integrator;
   double step = 0.0;       ///< longest [s]
+  long step_changes = 0;   ///< count of those at given times
   double tolerance = 0.0;  ///< 0: fixed steps [m]
   long steps = 0;
   long iterations = 0;  ///< of Newton's method
@@ -59,6 +60,7 @@ struct RunSummary {
   std::string open_place;
   std::vector<dynamics::EnergyRow> rows;
   std::vector<Level> levels;
+  bool has_errors = false;  ///< of its probes, by cause
   std::vector<std::string> warnings;
 };
 

@@ -201,6 +201,7 @@ Json summarize(const Run& run) {
   json["modes_exact"] = run.statistics.exact_modes;
   json["integrator"] = to_string(run.built.settings.integrator);
   json["step"] = run.built.settings.step;
+  json["step_changes"] = run.built.settings.step_changes.size();
   json["steps"] = run.statistics.steps;
   json["newton_iterations"] = run.statistics.newton_iterations;
   json["steps_halved"] = run.statistics.halved_steps;

@@ -47,8 +47,11 @@ double find_common(double a, double b) {
 }
 
 const char* advise_on_impacts(IntegratorKind scheme) {
-  return scheme == IntegratorKind::implicit_euler
-             ? "take shorter steps or generalized-alpha"
+  if (scheme == IntegratorKind::implicit_euler) {
+    return "take shorter steps or generalized-alpha";
+  }
+  return scheme == IntegratorKind::energy_conserving
+             ? "take shorter steps or more impact_steps"
              : "take shorter steps, more impact_steps or energy-conserving";
 }
 

@@ -49,6 +49,9 @@ std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
            " is of first order, and takes work from the start of a step; take "
            "shorter steps or another integrator";
   }
+  if (integrator == IntegratorKind::energy_conserving) {
+    return "take shorter steps, or generalized-alpha with steps to a tolerance";
+  }
   return "take shorter steps, steps to a tolerance, or energy-conserving";
 }
 
