@@ -10,6 +10,7 @@
 namespace limber::test::bad_input_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -361,6 +362,30 @@ TEST(BadInput, CheckpointIntervalBelowZero) {
 TEST(BadInput, UnknownSubcommand) {
   const Workspace place;
   expect_refused(place.limber("rnu x.toml"), "limber --help");
+}
+
+TEST(BadInput, OfAJointWithoutItsInterfaceNamesThoseThatExist) {
+  const Workspace place;
+  place.write(
+      "arm.urdf",
+      "<robot name='r'><link name='base'/><link name='arm'/>"
+      "<joint name='rooot' type='fixed'><parent link='base'/>"
+      "<child link='arm'/></joint><flexible link='arm'><mesh "
+      "file='" LIMBER_SOURCE_DIR
+      "/meshes/beam579.msh'/><material youngs_modulus='200e9' "
+      "poisson_ratio='0' density='8000'/><basis eigenmodes='1'/>"
+      "<interface name='root' plane_point='0 0 0' plane_normal='0 0 1'/>"
+      "</flexible></robot>\n");
+  place.write("s.toml",
+              "robot = 'arm.urdf'\n[time]\nduration = 0.1\nstep = 0.01\n");
+  const CommandResult result = place.limber("run s.toml");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(
+      result.errors,
+      AllOf(HasSubstr("joint 'rooot' holds it at an interface of the "
+                      "joint's own name"),
+            HasSubstr("did you mean 'root'?"), HasSubstr("(known: root, "),
+            HasSubstr("<attach joint=\"rooot\"")));
 }
 
 }  // namespace

@@ -118,11 +118,15 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
     return sites_.find_site(link, X_LF, {});
   }
   const Link& source = scene_.robot.links[index(link)];
+  const std::string interface =
+      find_joint_interface(*source.flexible, joint.name);
   const Anchor anchor = with_context(
-      "joint '" + joint.name + "' on link '" + source.name + "'", [&] {
-        return find_anchor(sites_.pieces_of(link),
-                           find_joint_interface(*source.flexible, joint.name));
-      });
+      fmt::format("joint '{}' on link '{}', which it holds at {}", joint.name,
+                  source.name,
+                  interface == joint.name
+                      ? "the interface of the joint's own name"
+                      : "the interface that <attach> names"),
+      [&] { return find_anchor(sites_.pieces_of(link), interface); });
   AttachmentSite site = sites_.find_site(link, X_LF, anchor);
   check_joint_interface(joint, link, site);
   return site;

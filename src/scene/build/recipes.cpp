@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "limber/common/names.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 #include "limber/scene/scenario/link_start.hpp"
@@ -123,6 +126,33 @@ std::string find_joint_interface(const FlexibleLink& link,
                                  const std::string& joint) {
   const auto found = link.interface_of_joint.find(joint);
   return found == link.interface_of_joint.end() ? joint : found->second;
+}
+
+std::string name_held_joint(const Robot& robot, int index,
+                            const std::string& problem) {
+  const FlexibleLink& link =
+      *robot.links[static_cast<std::size_t>(index)].flexible;
+  std::vector<std::string> known;
+  for (const InterfaceRequest& request : link.interfaces) {
+    known.push_back(request.name);
+  }
+  for (const Joint& joint : robot.joints) {
+    const std::string name = find_joint_interface(link, joint.name);
+    const bool is_held = joint.parent == index || joint.child == index;
+    if (!is_held || !problem.starts_with("interface '" + name + "': ") ||
+        std::find(known.begin(), known.end(), name) != known.end()) {
+      continue;
+    }
+    return fmt::format(
+        "joint '{}' holds it at {}, and there is none: {}; add <interface "
+        "name=\"{}\"> with its nodes, or choose one by <attach joint=\"{}\" "
+        "interface=\"NAME\"/> ({})",
+        joint.name,
+        name == joint.name ? "an interface of the joint's own name"
+                           : "the interface that <attach> names",
+        describe_unknown("interface", name, known), name, joint.name, problem);
+  }
+  return problem;
 }
 
 std::string find_place_interface(const Place& place) {

@@ -15,6 +15,11 @@ namespace limber::scene {
 [[nodiscard]] std::string find_joint_interface(const FlexibleLink& link,
                                                const std::string& joint);
 
+/// A problem of a reduction; of an interface that a joint of the link needs and
+/// that it lacks, with the joint and the interfaces that it has.
+[[nodiscard]] std::string name_held_joint(const Robot& robot, int link,
+                                          const std::string& problem);
+
 /// Name of the interface for a place on a flexible link: its own, or one
 /// derived from the selection ("group:tip"), so that equal links give equal
 /// recipes and share one reduction.

@@ -68,8 +68,9 @@ class Reduction {
     } catch (const InputError& error) {
       std::vector<std::string> texts;
       for (const std::string& text : error.problems()) {
-        texts.push_back(fmt::format(
-            "{}: link '{}': {}", scene_.robot.file.string(), link.name, text));
+        texts.push_back(
+            fmt::format("{}: link '{}': {}", scene_.robot.file.string(),
+                        link.name, name_held_joint(scene_.robot, index, text)));
       }
       throw InputError(texts);
     }
