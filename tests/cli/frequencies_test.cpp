@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -59,6 +60,21 @@ TEST(Frequencies, FewerThanAskedForAreCounted) {
   const CommandResult few = place.limber("frequencies s.toml --count 2");
   EXPECT_EQ(few.status, 0);
   EXPECT_EQ(few.errors, "");
+}
+
+TEST(Frequencies, OfFreeMotionsAreOneRow) {
+  const Workspace place;
+  place.write("robot.urdf",
+              "<robot name='r'><link name='bar'><inertial><mass value='2'/>"
+              "<inertia ixx='0.3' iyy='0.3' izz='0.1' ixy='0' ixz='0' iyz='0'/>"
+              "</inertial></link></robot>\n");
+  place.write("s.toml",
+              "robot = 'robot.urdf'\n[time]\nduration = 1.0\nstep = 0.01\n");
+  const CommandResult result = place.limber("frequencies s.toml");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.out, HasSubstr("1-6"));
+  EXPECT_THAT(result.out, HasSubstr("6 free motions\n"));
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3);
 }
 
 TEST(Frequencies, SayThatAStartIsNoEquilibriumAndByHowMuch) {

@@ -147,14 +147,23 @@ std::string to_text(const FrequencyReport& f, int count) {
   text += fmt::format("{:>5}  {:>14}  {:>13}\n", "", "frequency [Hz]",
                       "damping ratio");
   constexpr double kNone = 1e-9;  // a damping ratio of round-off
-  int i = 0;
+  const auto free =
+      std::count_if(f.modes.modes.begin(), f.modes.modes.end(),
+                    [](const auto& mode) { return mode.is_free(); });
+  std::ptrdiff_t number = 0;
   for (const dynamics::NaturalMode& mode : f.modes.modes) {
-    if (++i > count) break;
+    if (++number > count) break;
+    const bool is_one_of_many = mode.is_free() && free > 1;
+    if (is_one_of_many && number > 1) continue;
     const double ratio = mode.damping_ratio();
-    const std::string words = describe_mode(f, mode);
-    text += fmt::format("{:>5}  {:>14.6g}  {:>13.4g}{}{}\n", i,
-                        mode.frequency(), std::abs(ratio) < kNone ? 0.0 : ratio,
-                        words.empty() ? "" : "  ", words);
+    const std::string words = is_one_of_many
+                                  ? fmt::format("{} free motions", free)
+                                  : describe_mode(f, mode);
+    text += fmt::format(
+        "{:>5}  {:>14.6g}  {:>13.4g}{}{}\n",
+        is_one_of_many ? fmt::format("1-{}", free) : std::to_string(number),
+        mode.frequency(), std::abs(ratio) < kNone ? 0.0 : ratio,
+        words.empty() ? "" : "  ", words);
   }
   return text;
 }
