@@ -2,9 +2,11 @@
 #include "limber/app/reports/error_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace limber::app {
@@ -52,6 +54,39 @@ void add_total(const ColumnValues& own, const ErrorRun* together,
   probe.total.curve = std::max(probe.total.curve, all.curve);
 }
 
+std::string probe_of(const ProbeErrors& probe) {
+  return probe.column.substr(0, probe.column.rfind('.'));
+}
+
+void mark_noise(std::vector<ProbeErrors>& probes) {
+  constexpr double kNoise = 1e-9;
+  std::map<std::pair<std::string, std::string>, double> largest;
+  for (const ProbeErrors& probe : probes) {
+    double& peak = largest[{probe_of(probe), probe.unit}];
+    peak = std::max(peak, std::abs(probe.peak));
+  }
+  for (ProbeErrors& probe : probes) {
+    const double least = kNoise * largest[{probe_of(probe), probe.unit}];
+    probe.is_noise =
+        std::abs(probe.peak) <= least && probe.total.curve <= least;
+  }
+}
+
+std::string describe_noise(const ErrorTable& table) {
+  std::vector<std::string> names;
+  for (const ProbeErrors& probe : table.probes) {
+    if (probe.is_noise) names.push_back("'" + probe.column + "'");
+  }
+  if (names.empty()) return "";
+  constexpr std::size_t kMostNoise = 4;
+  const std::size_t count = names.size();
+  names.resize(std::min(count, kMostNoise));
+  return fmt::format(
+      "  {} left out, zero or round-off: {}{}\n", count, fmt::join(names, ", "),
+      count > kMostNoise ? fmt::format(" and {} more", count - kMostNoise)
+                         : "");
+}
+
 Json to_json(const ColumnError& error) {
   return Json{{"peak", error.peak}, {"curve", error.curve}};
 }
@@ -74,7 +109,7 @@ ErrorTable compare_causes(const std::vector<std::string>& names,
   ErrorTable table;
   const ErrorRun* all = together && is_known(*together) ? &*together : nullptr;
   for (std::size_t c = 0; c < names.size(); ++c) {
-    ProbeErrors probe{names[c], units[c], own[c].peak, {}, {}, {}, {}};
+    ProbeErrors probe{names[c], units[c], own[c].peak, {}, {}, {}, {}, false};
     for (const ErrorRun& run : runs) {
       probe.by_cause.push_back(
           is_known(run) ? find_difference(run.columns[c], own[c], run.factor)
@@ -84,6 +119,7 @@ ErrorTable compare_causes(const std::vector<std::string>& names,
     probe.remedy = find_remedy(probe, runs);
     table.probes.push_back(std::move(probe));
   }
+  mark_noise(table.probes);
   if (together && !is_known(*together)) {
     table.unknown.push_back("whether causes add up: " + together->failure);
   }
@@ -113,6 +149,7 @@ Json to_json(const ErrorTable& table) {
         Json{{"unit", probe.unit},
              {"total", to_json(probe.total)},
              {"by_cause", by_cause},
+             {"is_noise", probe.is_noise},
              {"adds_up", probe.adds_up ? Json(*probe.adds_up) : Json(nullptr)},
              {"remedy", probe.remedy ? Json(table.runs[*probe.remedy].name)
                                      : Json(nullptr)}};
@@ -131,6 +168,7 @@ std::string to_text(const ErrorTable& table) {
   }
   text += "  halved by\n";
   for (const ProbeErrors& probe : table.probes) {
+    if (probe.is_noise) continue;
     text += fmt::format("{:<28} {:>10.4g} {:>10.2g}", probe.column, probe.peak,
                         probe.total.curve);
     for (std::size_t i = 0; i < table.runs.size(); ++i) {
@@ -143,6 +181,7 @@ std::string to_text(const ErrorTable& table) {
         probe.remedy ? table.runs[*probe.remedy].name : "no single cause",
         probe.adds_up == false ? "(causes do not add up)" : "");
   }
+  text += describe_noise(table);
   for (const ErrorRun& run : table.runs) text += describe_run(run);
   for (const std::string& why : table.unknown) {
     text += fmt::format("  not known: {}\n", why);

@@ -42,6 +42,9 @@ struct ProbeErrors {
   std::optional<bool> adds_up;
   /// Index of the cheapest run whose cause alone has half of the total.
   std::optional<std::size_t> remedy;
+  /// Peak and total are below 1e-9 of the largest peak of the probe's columns
+  /// in this unit.
+  bool is_noise = false;
 };
 
 struct ErrorTable {
@@ -59,7 +62,7 @@ struct ErrorTable {
     std::vector<ErrorRun> runs, const std::optional<ErrorRun>& together);
 
 [[nodiscard]] Json to_json(const ErrorTable& table);
-/// Lines for a terminal; empty without probes.
+/// Lines for a terminal, without those of noise; empty without probes.
 [[nodiscard]] std::string to_text(const ErrorTable& table);
 
 }  // namespace limber::app

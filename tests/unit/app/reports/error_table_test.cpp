@@ -55,6 +55,22 @@ TEST(ErrorTable, NamesTheCheapestCauseThatHasHalfOfTheTotal) {
   EXPECT_EQ(find_remedy(0.05, 0.05, 1.0), std::nullopt);
 }
 
+// Round-off of a motion along x has components along y.
+TEST(ErrorTable, LeavesOutWhatIsRoundOffOfItsProbe) {
+  ErrorRun step = make_run("step", 1.0, 1.0, {{0.0, 1.1}, 1.1});
+  step.columns.push_back({{0.0, 3e-13}, 3e-13});
+  step.columns.push_back({{0.0, 2e-13}, 2e-13});
+  const ErrorTable table = compare_causes(
+      {"tip.ux", "tip.uy", "eye.ux"}, {"m", "m", "m"},
+      {{{0.0, 1.0}, 1.0}, {{0.0, 2e-13}, 2e-13}, {{0.0, 1e-13}, 1e-13}}, {step},
+      std::nullopt);
+  const std::string text = to_text(table);
+  EXPECT_THAT(text, HasSubstr("\ntip.ux "));
+  EXPECT_THAT(text, HasSubstr("\neye.ux "));  // a small motion of its own
+  EXPECT_THAT(text, HasSubstr("1 left out, zero or round-off: 'tip.uy'"));
+  EXPECT_TRUE(to_json(table)["probes"]["tip.uy"]["is_noise"].get<bool>());
+}
+
 TEST(ErrorTable, TellsWhereCausesDoNotAddUp) {
   const std::vector<ErrorRun> runs = {
       make_run("step", 1.0, 1.0, {{0.0, 1.1, -2.0}, -2.5})};
