@@ -94,6 +94,18 @@ TEST(Check, PredictsTheSizeOfResults) {
   EXPECT_NEAR(check["cost"]["results_bytes"].get<double>(), size, 0.15 * size);
 }
 
+TEST(Check, OfARunToAToleranceHasTheFactorOfItsPrediction) {
+  const Workspace place;
+  const json check = check_sled(
+      place, "duration = 1e4\ntolerance = 1e-9\noutput_interval = 1e3\n");
+  const json& cost = check["cost"];
+  ASSERT_TRUE(cost["seconds"].is_number()) << cost;
+  EXPECT_GT(cost["fraction_scouted"], 0.0);
+  EXPECT_GE(cost["seconds_factor"], 2.0);
+  EXPECT_THAT(place.limber("check s.toml").out,
+              HasSubstr("within a factor of"));
+}
+
 /// An arm of 1 m that turns about the origin, and a ball of radius 0.1 m.
 json check_reach(const Workspace& place, double distance) {
   place.write("arm.urdf",

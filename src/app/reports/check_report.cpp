@@ -213,22 +213,43 @@ std::string describe_contacts(const SceneCheck& check) {
   return text + "\n";
 }
 
+/// Factor within which a predicted time of steps to a tolerance was, of the
+/// examples; none of fixed steps, and of a run that was measured as a whole.
+std::optional<double> find_doubt(const Pace& pace) {
+  constexpr double kScouted = 2.0;
+  constexpr double kExtrapolated = 4.0;  // or passes whose number is not known
+  if (pace.is_verified) return kExtrapolated;
+  if (!pace.scouted) return std::nullopt;
+  return *pace.scouted >= 1.0 ? kScouted : kExtrapolated;
+}
+
+std::string describe_pace(const SceneCheck& check) {
+  const Pace& pace = check.cost.pace;
+  if (!pace.run_seconds) {
+    return fmt::format("not known: {} steps in {:.2g} s", pace.steps,
+                       pace.seconds);
+  }
+  std::string text = fmt::format("about {:.2g} s", *pace.run_seconds);
+  if (pace.is_verified) text += " for three passes";
+  const std::optional<double> doubt = find_doubt(pace);
+  if (doubt) text += fmt::format(", within a factor of {:g}", *doubt);
+  text +=
+      fmt::format(", at the pace of the first {} steps ({:.3g} s of motion)",
+                  pace.steps, pace.time);
+  if (pace.scouted) {
+    text += fmt::format(" and of a coarse pass over {:.0f} % of the motion",
+                        100.0 * *pace.scouted);
+  }
+  const bool changes = !doubt && !check.contacts.empty();
+  return text + (changes ? "; contact takes longer" : "");
+}
+
 std::string describe_cost(const SceneCheck& check) {
   const CostCheck& cost = check.cost;
-  std::string text = "cost      ";
-  if (cost.run_seconds) {
-    text += fmt::format(
-        "about {:.2g} s{}, at the pace of the first {} steps "
-        "({:.3g} s of motion){}\n",
-        *cost.run_seconds, has_tolerance(check) ? " a pass" : "", cost.steps,
-        cost.time, check.contacts.empty() ? "" : "; contact takes longer");
-  } else {
-    text += fmt::format("not known: {} steps in {:.2g} s\n", cost.steps,
-                        cost.seconds);
-  }
-  return text +
-         fmt::format("          at least {} of memory, and {} in results.h5\n",
-                     to_size(cost.memory_bytes), to_size(cost.file_bytes));
+  return fmt::format(
+      "cost      {}\n          at least {} of memory, and {} in results.h5\n",
+      describe_pace(check), to_size(cost.memory_bytes),
+      to_size(cost.file_bytes));
 }
 
 template <typename Value>
@@ -237,10 +258,13 @@ Json or_null(const std::optional<Value>& value) {
 }
 
 Json describe_cost_values(const CostCheck& cost) {
-  return Json{{"steps_measured", cost.steps},
-              {"time_measured", cost.time},
-              {"seconds_measured", cost.seconds},
-              {"seconds", or_null(cost.run_seconds)},
+  const Pace& pace = cost.pace;
+  return Json{{"steps_measured", pace.steps},
+              {"time_measured", pace.time},
+              {"seconds_measured", pace.seconds},
+              {"seconds", or_null(pace.run_seconds)},
+              {"seconds_factor", or_null(find_doubt(pace))},
+              {"fraction_scouted", or_null(pace.scouted)},
               {"memory_bytes", cost.memory_bytes},
               {"results_bytes", cost.file_bytes}};
 }

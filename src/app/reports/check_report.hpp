@@ -38,15 +38,21 @@ struct ControllerCheck {
   double period = 0.0;  ///< of its samples, at each of which a step ends [s]
 };
 
-/// Cost of a run, from its first steps.
-struct CostCheck {
-  long steps = 0;        ///< number of steps measured
+/// Wall time of a run, predicted from its first steps.
+struct Pace {
+  long steps = 0;        ///< measured
   double time = 0.0;     ///< simulated in them [s]
   double seconds = 0.0;  ///< wall time of them [s]
   std::string failure;   ///< why they ended early; empty: they did not
-  /// Wall time of all steps of the run, at the pace of the later half of those
-  /// measured; one pass of a tolerance [s].
-  std::optional<double> run_seconds;
+  std::optional<double> run_seconds;  ///< wall time of all steps of the run [s]
+  /// Of the motion, what a coarse pass covered, if there was one [-].
+  std::optional<double> scouted;
+  bool is_verified = false;  ///< by several passes, mostly three
+};
+
+/// Cost of a run.
+struct CostCheck {
+  Pace pace;
   std::size_t memory_bytes = 0;  ///< largest use of this process, and outputs
   std::size_t file_bytes = 0;    ///< of results.h5
 };

@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/cost_check.hpp"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <system_error>
 
-#include "limber/app/run/cost_check.hpp"
+#include "limber/app/run/pace.hpp"
 #include "limber/app/run/probe_columns.hpp"
-#include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/scratch_folder.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/results/results_file.hpp"
-#include "limber/scene/probes/followed_probes.hpp"
 
 namespace limber::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-constexpr double kMeasured = 0.5;  // wall time of the first steps [s]
 
 ScratchFolder make_scratch() {
   try {
@@ -94,56 +90,12 @@ std::size_t find_largest_memory() {
   return static_cast<std::size_t>(used.ru_maxrss) * 1024;
 }
 
-/// A point of the measured steps: fraction of the run, and wall time.
-struct Progressed {
-  double fraction = 0.0;
-  double seconds = 0.0;  // [s]
-};
-
 }  // namespace
 
 CostCheck check_cost(const PicturedScene& scene) {
   const scene::BuiltScene& built = scene.built;
-  dynamics::SimulationSettings settings = built.settings;
-  settings.passes = dynamics::TolerancePasses::one;
   CostCheck cost;
-  dynamics::SystemState state = built.initial;
-  dynamics::SimulationStatistics statistics;
-  dynamics::RunRecord record;
-  const Clock::time_point start = Clock::now();
-  Progressed middle;
-  Progressed last;
-  const Progress watch = [&](std::string_view, double fraction) {
-    last = {fraction, seconds_since(start)};
-    if (last.seconds <= 0.5 * kMeasured) middle = last;
-    if (last.seconds > kMeasured && fraction < 1.0) {
-      throw dynamics::Interrupted("measured");
-    }
-  };
-  const dynamics::Observer observer = [&](const dynamics::SystemState& now,
-                                          const dynamics::EnergyBalance&) {
-    static_cast<void>(scene::evaluate_all(built.probes, built.model, now));
-  };
-  try {
-    dynamics::simulate(built.model, state, settings, observer, watch,
-                       statistics, {}, scene::follow(built.probes, built.model),
-                       record);
-  } catch (const dynamics::Interrupted&) {  // as asked
-  } catch (const NumericalError& error) {
-    cost.failure = error.what();
-  } catch (const InputError& error) {
-    cost.failure = error.what();
-  }
-  cost.steps = statistics.steps;
-  cost.time = state.t - built.initial.t;
-  cost.seconds = statistics.seconds;
-  if (last.fraction >= 1.0) {
-    cost.run_seconds = cost.seconds;
-  } else if (cost.failure.empty() && last.fraction > middle.fraction) {
-    cost.run_seconds = last.seconds + (1.0 - last.fraction) *
-                                          (last.seconds - middle.seconds) /
-                                          (last.fraction - middle.fraction);
-  }
+  cost.pace = measure_pace(built);
   cost.file_bytes = predict_file(scene);
   cost.memory_bytes =
       find_largest_memory() +

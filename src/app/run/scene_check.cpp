@@ -137,8 +137,9 @@ SceneCheck check_scene(const scene::Scene& scene,
   }
   add_choices(scene, built, check);
   check.cost = check_cost(pictured);
-  if (!check.cost.failure.empty()) {
-    check.problems.push_back("the first steps fail: " + check.cost.failure);
+  const std::string& failure = check.cost.pace.failure;
+  if (!failure.empty()) {
+    check.problems.push_back("the first steps fail: " + failure);
   }
   return check;
 }
