@@ -227,6 +227,15 @@ TEST_F(AController, WhoseLoopIsUnstableHasTheSameWarningInACheck) {
   EXPECT_EQ(found["sample_periods"]["pd"], kPeriod);
 }
 
+TEST_F(AController, WhoseLoopIsUnstableIsNamedAfterQuestionsAboutValues) {
+  text_ += "[gravity]\nacceleration = [0.0, 0.0, -9810.0]\n";
+  (void)run(
+      "--set controller.pd.proportional=-3 --set controller.pd.derivative=-1");
+  ASSERT_THAT(errors_, HasSubstr("is it in m/s^2"));
+  ASSERT_THAT(errors_, HasSubstr("unstable"));
+  EXPECT_LT(errors_.find("is it in m/s^2"), errors_.find("unstable"));
+}
+
 TEST_F(AController, CutsTheStepsOfACheckAtItsSamples) {
   place_.write("s.toml", text_);
   EXPECT_THAT(place_.limber("check s.toml").out,

@@ -200,7 +200,7 @@ void add_contacts(const scene::Scene& scene, const scene::BuiltScene& built,
 
 void add_shapes(const scene::Scene& scene, std::vector<std::string>& silent) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.robot.tree_size(); ++i) {
+  for (std::size_t i = 0; i < scene.robot.links.size(); ++i) {
     const scene::Link& link = scene.robot.links[i];
     const scene::Toucher body = {false, i};
     const bool touches =
@@ -212,10 +212,10 @@ void add_shapes(const scene::Scene& scene, std::vector<std::string>& silent) {
   }
   if (names.empty()) return;
   silent.push_back(fmt::format(
-      "<collision> of link '{}'{}: no [[contact]] names it, so that it passes "
-      "through everything",
+      "the shape of '{}'{} touches nothing: no [[contact]] names it",
       names.front(),
-      names.size() == 1 ? "" : fmt::format(" and {} more", names.size() - 1)));
+      names.size() == 1 ? ""
+                        : fmt::format(" (and of {} more)", names.size() - 1)));
 }
 
 }  // namespace

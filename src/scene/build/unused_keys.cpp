@@ -40,7 +40,6 @@ class Finder {
     look_at_stribeck_speeds();
     look_at_obstacles();
     look_at_surfaces();
-    look_at_projectiles();
     look_at_packages();
     return std::move(texts_);
   }
@@ -311,17 +310,6 @@ class Finder {
       if (!is_given || is_touching({false, i})) continue;
       tell("<contact> of link '" + links_[i].name + "'",
            "no [[contact]] names it");
-    }
-  }
-
-  void look_at_projectiles() {
-    const std::size_t first = links_.size() - scenario_.projectiles.size();
-    for (std::size_t i = first; i < links_.size(); ++i) {
-      if (is_touching({false, i})) continue;
-      texts_.push_back(
-          fmt::format("projectile '{}' passes through everything: no "
-                      "[[contact]] names it",
-                      links_[i].name));
     }
   }
 

@@ -215,6 +215,22 @@ TEST(EnergyVerdict, WarnsOfWhatImplicitEulerDampsAndLetsItRun) {
               ElementsAre(HasSubstr("implicit-euler damps")));
 }
 
+TEST(EnergyVerdict, DoesNotAdviseTheSchemeInUse) {
+  EnergyRecord record;
+  record.worst.drift = {-0.1, 1.0};
+  record.worst.throughput = 1.0;
+  const auto advise = [&](IntegratorKind integrator) {
+    std::vector<std::string> warnings;
+    warn_of_energy(integrator, record, warnings);
+    EXPECT_EQ(warnings.size(), 1U);
+    return warnings.front();
+  };
+  EXPECT_THAT(advise(IntegratorKind::generalized_alpha),
+              HasSubstr("energy-conserving"));
+  EXPECT_THAT(advise(IntegratorKind::energy_conserving),
+              ::testing::Not(HasSubstr("energy-conserving")));
+}
+
 TEST(EnergyVerdict, EndsARunThatLosesMoreThanHalf) {
   const Pair scene = make_pair_of_oscillators(600.0);
   SystemState state = scene.state;
