@@ -34,12 +34,10 @@ set(public_headers
   common/errors.hpp
   common/restitution.hpp
   common/rotation.hpp
-  contact/contact_pair.hpp
-  contact/law/contact_damping.hpp
   contact/law/hertz_law.hpp
   contact/law/impact_estimate.hpp
   contact/law/materials.hpp
-  contact/narrow_phase/shape_pair.hpp
+  contact/make_contact.hpp
   contact/shapes/skin.hpp
   dynamics/analysis/balanced_truncation.hpp
   dynamics/analysis/equilibrium.hpp

@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/make_contact.hpp"
 
-#include "limber/contact/contact_pair.hpp"
+#include <fmt/format.h>
+
+#include "limber/common/errors.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/patches/patch_sides.hpp"
+#include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {
+namespace {
+
+// Surfaces for which no convex bodies stand, such as "'pad'".
+std::string list_bare_surfaces(const ContactSide& A, const ContactSide& B) {
+  std::string names;
+  for (const ContactSide* side : {&A, &B}) {
+    const auto* skin =
+        std::get_if<std::shared_ptr<const Skin>>(&side->shape.kind);
+    if (skin == nullptr || !make_parts(*side).empty()) continue;
+    names += fmt::format("{}'{}'", names.empty() ? "" : " and ",
+                         (*skin)->surface().name);
+  }
+  return names;
+}
+
+}  // namespace
 
 std::shared_ptr<const joints::PairInteraction> make_contact(
     const ContactSide& A, const ContactSide& B,
@@ -13,7 +32,15 @@ std::shared_ptr<const joints::PairInteraction> make_contact(
   if (suits(A, B)) {
     return std::make_shared<const PatchPair>(A, B, parameters);
   }
-  return std::make_shared<const ContactPair>(A, B, parameters);
+  const std::string bare = list_bare_surfaces(A, B);
+  if (bare.empty()) {
+    throw InputError("contact: these two shapes cannot touch each other");
+  }
+  throw InputError(fmt::format(
+      "contact: surface {} has no convex parts, so that only balls can touch "
+      "it: divide a flat group with hollows into convex ones, or make the "
+      "saved body anew by 'limber reduce'",
+      bare));
 }
 
 }  // namespace limber::contact

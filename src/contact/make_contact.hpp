@@ -9,10 +9,9 @@
 
 namespace limber::contact {
 
-/// The law between two bodies that may touch: a PatchPair where both have a
-/// potential, else a ContactPair.
+/// The law between two bodies that may touch.
 /// @throws InputError for parameters outside their range, or that these shapes
-/// do not have.
+/// do not have, and unless suits(A, B).
 [[nodiscard]] std::shared_ptr<const joints::PairInteraction> make_contact(
     const ContactSide& A, const ContactSide& B,
     const ContactParameters& parameters);

@@ -21,8 +21,11 @@ using Vector2 = Eigen::Vector2d;
 using Polygon = std::vector<Vector2>;
 using Sample = SurfaceSample;
 
-// Difference of a surface's area and that of its hull [-].
+// Difference of a surface's area and that of its hull, or of its parts [-].
 constexpr double kConvex = 5e-3;
+constexpr double kMostFilled = 2e-2;  // of a surface that is not convex
+// Of a convex surface, whose parts follow its deformation alone.
+constexpr std::size_t kMostOfConvex = 8;
 
 double find_turn(const Vector2& a, const Vector2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -111,6 +114,9 @@ Vector2 find_longest_edge(const Polygon& hull) {
 struct Outline {
   Frame frame;
   Polygon hull;
+  double size = 0.0;           // [m]
+  double area = 0.0;           // of the surface [m^2]
+  std::vector<Polygon> faces;  // none of a convex surface
 };
 
 // At most kMostCorners: without those that cut off least, at the same area.
@@ -135,7 +141,22 @@ Polygon simplify(Polygon hull) {
   return hull;
 }
 
-Outline find_outline(const fem::Surface& surface, const Vector3& normal) {
+// Along both halves of each edge.
+std::vector<Polygon> list_faces(const fem::Surface& surface,
+                                const Frame& frame) {
+  std::vector<Polygon> faces;
+  for (const auto& nodes : surface.triangles) {
+    Polygon& face = faces.emplace_back();
+    for (const std::size_t k : {0, 3, 1, 4, 2, 5}) {
+      if (nodes[k] < 0) continue;
+      face.push_back(frame.find(surface.points[index(nodes[k])].x));
+    }
+  }
+  return faces;
+}
+
+Outline find_outline(const fem::Surface& surface, const Vector3& normal,
+                     double area) {
   const Vector3 first = normal.unitOrthogonal();
   Frame frame{surface.points.front().x, normal, first, normal.cross(first)};
   Polygon points = project(surface, frame);
@@ -144,7 +165,17 @@ Outline find_outline(const fem::Surface& surface, const Vector3& normal) {
   const Vector2 edge = find_longest_edge(find_hull(points, size)).normalized();
   frame.along = edge[0] * frame.along + edge[1] * frame.across;
   frame.across = normal.cross(frame.along);
-  return {frame, simplify(find_hull(project(surface, frame), size))};
+  Outline outline{frame,
+                  simplify(find_hull(project(surface, frame), size)),
+                  size,
+                  area,
+                  {}};
+  const double hull_area = find_area(outline.hull);
+  if (std::abs(hull_area - area) > kConvex * hull_area) {
+    outline.hull = find_hull(project(surface, frame), size);
+    outline.faces = list_faces(surface, frame);
+  }
+  return outline;
 }
 
 /// The mean motion of samples as sums over nodes.
@@ -237,6 +268,19 @@ struct Grid {
     }
     return part;
   }
+  // Whether a place is on the line between two cells.
+  [[nodiscard]] bool is_between(const Vector2& x) const {
+    constexpr double kOn = 1e-6;
+    for (int k = 0; k < 2; ++k) {
+      const double steps = (x[k] - low[k]) / step()[k];
+      const double line = std::round(steps);
+      if (std::abs(steps - line) < kOn && line > 0.5 &&
+          line < count[index(k)] - 0.5) {
+        return true;
+      }
+    }
+    return false;
+  }
   void refine() {
     const Vector2 extent = step();
     count[extent[1] > (1.0 + 1e-6) * extent[0] ? 1 : 0] *= 2;
@@ -284,13 +328,40 @@ double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
   return all > 0.0 ? own / all : 0.0;
 }
 
+// The convex part in a cell: of a surface that is not convex, the hull of what
+// its faces have there.
+Polygon find_part(const Outline& outline, const Grid& grid, std::size_t cell) {
+  if (outline.faces.empty()) return grid.cut_out(outline.hull, cell);
+  Polygon points;
+  for (const Polygon& face : outline.faces) {
+    const Polygon within = grid.cut_out(face, cell);
+    points.insert(points.end(), within.begin(), within.end());
+  }
+  return points.size() < 3 ? Polygon{} : find_hull(points, outline.size);
+}
+
+// What the parts have more than the surface, of its area.
+double find_filled(const Outline& outline, const Grid& grid) {
+  if (outline.faces.empty()) return 0.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Polygon part = find_part(outline, grid, i);
+    if (part.size() > 2) area += find_area(part);
+  }
+  return area / outline.area - 1.0;
+}
+
 Grid choose_grid(const std::vector<Sample>& samples, const Outline& outline,
                  const VectorX& lambda, const MatrixX& Phi,
                  const Vector3& normal) {
   Grid grid = make_grid(outline.hull);
+  const auto is_deformed = [&] {
+    return 2 * grid.size() <= kMostOfConvex &&
+           find_deformation(sort_samples(samples, outline.frame, grid), lambda,
+                            Phi, normal) > kMostDeformation;
+  };
   while (2 * grid.size() <= kMostParts &&
-         find_deformation(sort_samples(samples, outline.frame, grid), lambda,
-                          Phi, normal) > kMostDeformation) {
+         (find_filled(outline, grid) > kConvex || is_deformed())) {
     grid.refine();
   }
   return grid;
@@ -308,21 +379,12 @@ void roll_off(const VectorX& lambda, ContactPart& part) {
   }
 }
 
-// Edges of a part that lie on edges of the hull.
-std::vector<std::size_t> find_rim(const Polygon& part, const Polygon& hull) {
-  constexpr double kOn = 1e-9;
+// Edges of a part at which no other part begins.
+std::vector<std::size_t> find_rim(const Polygon& part, const Grid& grid) {
   std::vector<std::size_t> rim;
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Vector2 middle = 0.5 * (part[i] + part[(i + 1) % part.size()]);
-    for (std::size_t k = 0; k < hull.size(); ++k) {
-      const Vector2 edge = hull[(k + 1) % hull.size()] - hull[k];
-      if (std::abs(find_turn(edge, middle - hull[k])) >
-          kOn * edge.squaredNorm()) {
-        continue;
-      }
-      rim.push_back(i);
-      break;
-    }
+    if (!grid.is_between(middle)) rim.push_back(i);
   }
   return rim;
 }
@@ -342,24 +404,23 @@ std::vector<ContactPart> make_contact_parts(
     const MeshedBody& body, const fem::Surface& surface, const Vector3& normal,
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     double depth) {
-  const Outline outline = find_outline(surface, normal);
   const std::vector<Sample> samples = sample_surface(body.mesh, surface);
   double area = 0.0;
   for (const Sample& s : samples) area += s.area;
-  const double hull_area = find_area(outline.hull);
-  if (std::abs(hull_area - area) > kConvex * hull_area) return {};
+  const Outline outline = find_outline(surface, normal, area);
   const Grid grid = choose_grid(samples, outline, basis.lambda, Phi, normal);
+  if (find_filled(outline, grid) > kMostFilled) return {};
   const auto cells = sort_samples(samples, outline.frame, grid);
   std::vector<ContactPart> parts;
   std::vector<ContactPatch> patches;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Polygon polygon = grid.cut_out(outline.hull, i);
+    const Polygon polygon = find_part(outline, grid, i);
     if (cells[i].empty() || polygon.size() < 3) continue;
     const Fit fit(cells[i]);
     parts.push_back({.normal_B = normal,
                      .centre_B = fit.centre - center,
                      .corners_B = place_corners(polygon, outline.frame, center),
-                     .rim = find_rim(polygon, outline.hull),
+                     .rim = find_rim(polygon, grid),
                      .motion_B = fit.find_motion(Phi),
                      .depth = depth});
     patches.push_back(fit.make_patch(normal));

@@ -15,12 +15,13 @@ namespace limber::flexbody {
 /// Divides a flat surface by an even grid, as coarse as its modes allow: until
 /// sum_k <(u_k - fit)^2> / lambda_k <= kMostDeformation sum_k <u_k^2> /
 /// lambda_k, with u_k the mode's displacement along the normal, or there are
+/// eight. A surface that is not convex is also divided until the hulls of what
+/// its cells have are not half a percent larger than it, or there are
 /// kMostParts.
 ///
-/// Equation   fit: the least squares over the part's area; R as in ContactPads,
-///            of uniform pressure on the part
-/// Limits     none of a surface that is not convex, to half a percent of its
-///            area: such a surface has no parts
+/// Equation   fit: the least squares over the part's area; R = F^T
+///            K^+ F, of uniform pressure on the part
+/// Limits     none of a surface whose parts would fill 2 % more than its area
 /// @param normal of the surface, unit, outward
 /// @param basis on the free nodes; @param Phi its 3N x m rows of all nodes
 /// @param center of mass, mesh frame [m]

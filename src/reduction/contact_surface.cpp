@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "limber/reduction/contact_parts.hpp"
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_residual.hpp"
+#include "limber/reduction/slices/nodal_pieces.hpp"
 #include "limber/reduction/slices/roll_off.hpp"
 #include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_flexibility.hpp"
@@ -25,134 +25,11 @@ namespace limber::flexbody {
 namespace {
 
 constexpr double kFlat = 1e-6;  // of the surface's size, and of the normals
-constexpr double kSame = 1e-6;  // distances that differ by less are equal [-]
 
 Vector3 find_centre(const fem::Surface& surface) {
   Vector3 centre = Vector3::Zero();
   for (const fem::SurfacePoint& point : surface.points) centre += point.x;
   return centre / static_cast<double>(surface.points.size());
-}
-
-std::vector<Vector3> list_corners(const fem::Surface& surface) {
-  std::vector<Vector3> corners;
-  for (const fem::SurfacePoint& point : surface.points) {
-    if (point.is_corner()) corners.push_back(point.x);
-  }
-  return corners;
-}
-
-// Points, each farthest from the earlier ones, with its distance.
-struct Spread {
-  std::vector<Vector3> places;
-  std::vector<double> distances;
-};
-
-Spread spread_out(const std::vector<Vector3>& corners, const Vector3& centre) {
-  const std::size_t most =
-      std::min(corners.size(), static_cast<std::size_t>(kMostPads) + 1);
-  std::vector<double> distance;
-  for (const Vector3& x : corners) distance.push_back((x - centre).norm());
-  Spread spread;
-  while (spread.places.size() < most) {
-    std::size_t next = 0;
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-      if (distance[i] > (1.0 + kSame) * distance[next]) next = i;
-    }
-    spread.places.push_back(corners[next]);
-    spread.distances.push_back(distance[next]);
-    const bool is_first = spread.places.size() == 1;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const double d = (corners[i] - corners[next]).norm();
-      distance[i] = is_first ? d : std::min(distance[i], d);
-    }
-  }
-  return spread;
-}
-
-std::vector<Vector3> choose_places(const std::vector<Vector3>& corners,
-                                   const Vector3& centre) {
-  constexpr std::size_t kFewest = 9;
-  constexpr double kDrop = 0.9;
-  Spread spread = spread_out(corners, centre);
-  std::size_t count = std::min<std::size_t>(spread.places.size(), kMostPads);
-  if (spread.places.size() > kMostPads) {
-    for (std::size_t k = count; k >= kFewest; --k) {
-      if (spread.distances[k] > kDrop * spread.distances[k - 1]) continue;
-      count = k;
-      break;
-    }
-  }
-  spread.places.resize(count);
-  return spread.places;
-}
-
-// Those among `places` that are nearest to x.
-std::vector<std::size_t> find_nearest(const std::vector<Vector3>& places,
-                                      const Vector3& x) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vector3& place : places) {
-    least = std::min(least, (place - x).norm());
-  }
-  std::vector<std::size_t> nearest;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if ((places[i] - x).norm() <= (1.0 + kSame) * least) nearest.push_back(i);
-  }
-  return nearest;
-}
-
-// For every pad the area that each of its nodes carries.
-using Shares = std::vector<std::map<int, double>>;
-
-void add_shares(const fem::Mesh& mesh, const fem::SurfaceFace& face,
-                const fem::FaceTable& rule, const std::vector<Vector3>& places,
-                Shares& shares) {
-  const Matrix3X x = mesh.x(Eigen::all, face.nodes);
-  const Matrix3X points = x * rule.shape;
-  const Matrix3X along_u = x * rule.along_u;
-  const Matrix3X along_v = x * rule.along_v;
-  for (Eigen::Index q = 0; q < points.cols(); ++q) {
-    const double area =
-        rule.weights[q] *
-        Vector3(along_u.col(q)).cross(Vector3(along_v.col(q))).norm();
-    const std::vector<std::size_t> pads = find_nearest(places, points.col(q));
-    for (const std::size_t pad : pads) {
-      for (std::size_t k = 0; k < face.nodes.size(); ++k) {
-        shares[pad][face.nodes[k]] +=
-            area / static_cast<double>(pads.size()) *
-            rule.shape(static_cast<Eigen::Index>(k), q);
-      }
-    }
-  }
-}
-
-std::vector<ContactPatch> divide(const fem::Mesh& mesh,
-                                 const fem::Surface& surface,
-                                 const Vector3& normal,
-                                 const std::vector<Vector3>& places,
-                                 VectorX& area) {
-  // Even, so that borders of pads within a face are those of its cells.
-  constexpr int kDivisions = 16;
-  std::vector<fem::FaceTable> rules;
-  for (const fem::FaceShape& shape : surface.shapes) {
-    rules.push_back(shape.make_rule(kDivisions));
-  }
-  Shares shares(places.size());
-  for (const fem::SurfaceFace& face : surface.faces) {
-    add_shares(mesh, face, rules[face.shape], places, shares);
-  }
-  area.setZero(std::ssize(places));
-  std::vector<ContactPatch> pads;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    ContactPatch pad{normal, 0.0, {}, VectorX(std::ssize(shares[i]))};
-    for (const auto& [node, share] : shares[i]) {
-      pad.weights[std::ssize(pad.nodes)] = share;
-      pad.nodes.push_back(node);
-    }
-    area[static_cast<Eigen::Index>(i)] = pad.weights.sum();
-    pad.weights /= pad.weights.sum();
-    pads.push_back(std::move(pad));
-  }
-  return pads;
 }
 
 /// Of corners by solution, of the points between them as their mean.
@@ -257,15 +134,16 @@ std::vector<ContactSlice> make_contact_slices(
          .centre_B = motion.centre() - center,
          .motion_B = motion.find_motion(Phi)});
     ContactSlice& made = slices.back();
-    made.flexibility_B = find_own_flexibility(slice, motion, made.motion_B,
-                                              division.axes, basis.lambda, Phi);
+    made.own_B = find_own_flexibility(slice, motion, made.motion_B,
+                                      division.axes, basis.lambda, Phi);
   }
   const MatrixX residual = calc_residual_matrix(body, basis, loads);
   for (std::size_t i = 0; i < slices.size(); ++i) {
     const Eigen::Index at = 3 * static_cast<Eigen::Index>(i);
     const Matrix3 R = residual.block<3, 3>(at, at);
-    slices[i].flexibility_B +=
-        R + find_excess(division.slices[i], R, division.axes, material);
+    slices[i].flexibility_B =
+        slices[i].own_B + R +
+        find_excess(division.slices[i], R, division.axes, material);
     roll_off_slice(basis.lambda, division.axes, slices[i]);
   }
   return slices;
@@ -282,11 +160,9 @@ ContactSurface make_contact_surface(const MeshedBody& body,
   contact.residual =
       find_residual(body, basis, bare.surface, bare.patches, group, progress);
   if (is_flat(bare.surface, bare.normals)) {
-    contact.pads =
-        make_contact_pads(body, bare.surface, bare.normals, basis, Phi, center);
-    contact.parts =
-        make_contact_parts(body, bare.surface, contact.pads.normal_B, basis,
-                           Phi, center, contact.patch_radius.minCoeff());
+    const Vector3 normal = bare.normals.rowwise().sum().normalized();
+    contact.parts = make_contact_parts(body, bare.surface, normal, basis, Phi,
+                                       center, contact.patch_radius.minCoeff());
   } else {
     contact.slices = make_contact_slices(body, bare.surface, group.material,
                                          basis, Phi, center);
@@ -294,9 +170,28 @@ ContactSurface make_contact_surface(const MeshedBody& body,
   return std::move(bare.contact);
 }
 
+// Of the reduced body the parts or slices, whose nodes move them; their own
+// deformation is that of its modes, all other that of the mesh.
+void add_pieces(const fem::Mesh& mesh, const fem::Surface& surface,
+                const ContactSurface& reduced, const Vector3& center,
+                FullContactSurface& full) {
+  full.surface.parts = reduced.parts;
+  for (ContactPart& part : full.surface.parts) {
+    part.motion_B.resize(6, 0);
+    part.residual = part.flexibility = 0.0;
+  }
+  full.surface.slices = reduced.slices;
+  for (ContactSlice& slice : full.surface.slices) {
+    slice.motion_B.resize(6, 0);
+    slice.flexibility_B = slice.own_B;
+  }
+  full.pieces = find_nodal_pieces(mesh, surface, full.surface, center);
+}
+
 FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
                                              const ContactGroup& group,
-                                             const Vector3& center) {
+                                             const Vector3& center,
+                                             const ReducedBody* reduced) {
   BareSurface bare = make_bare_surface(mesh, group, center);
   FullContactSurface full;
   full.surface = std::move(bare.contact);
@@ -312,6 +207,11 @@ FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
     full.means.weights.insert(full.means.weights.end(), patch.weights.begin(),
                               patch.weights.end());
     full.means.first.push_back(full.means.nodes.size());
+  }
+  if (reduced == nullptr) return full;
+  for (const ContactSurface& surface : reduced->contact_surfaces) {
+    if (surface.name != group.name) continue;
+    add_pieces(mesh, bare.surface, surface, center, full);
   }
   return full;
 }
@@ -331,11 +231,12 @@ std::vector<ContactSurface> make_contact_surfaces(
 
 std::vector<FullContactSurface> make_full_contact_surfaces(
     const fem::Mesh& mesh, const Recipe& recipe,
-    const std::vector<fem::ElasticMaterial>& materials, const Vector3& center) {
+    const std::vector<fem::ElasticMaterial>& materials, const Vector3& center,
+    const ReducedBody* reduced) {
   std::vector<FullContactSurface> surfaces;
   for (const ContactGroup& group :
        find_contact_groups(mesh, recipe.contact_groups, materials)) {
-    surfaces.push_back(make_full_contact_surface(mesh, group, center));
+    surfaces.push_back(make_full_contact_surface(mesh, group, center, reduced));
   }
   return surfaces;
 }
@@ -351,26 +252,6 @@ bool is_flat(const fem::Surface& surface, const Matrix3X& normals) {
   }
   return height <= kFlat * size &&
          ((normal.transpose() * normals).array() > 1.0 - kFlat).all();
-}
-
-ContactPads make_contact_pads(const MeshedBody& body,
-                              const fem::Surface& surface,
-                              const Matrix3X& normals,
-                              const ReducedBasis& basis, const MatrixX& Phi,
-                              const Vector3& center) {
-  const std::vector<Vector3> places =
-      choose_places(list_corners(surface), find_centre(surface));
-  ContactPads pads;
-  pads.normal_B = normals.rowwise().sum().normalized();
-  pads.x_B.resize(3, std::ssize(places));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    pads.x_B.col(static_cast<Eigen::Index>(i)) = places[i] - center;
-  }
-  const std::vector<ContactPatch> patches =
-      divide(body.mesh, surface, pads.normal_B, places, pads.area);
-  pads.Phi_B = average(Phi, patches);
-  pads.flexibility = calc_residual_matrix(body, basis, patches);
-  return pads;
 }
 
 }  // namespace limber::flexbody

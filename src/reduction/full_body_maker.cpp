@@ -187,9 +187,11 @@ void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
 std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
                                                const FullOptions& options,
                                                const Progress& progress,
-                                               const std::string& key) {
+                                               const ReducedBody* reduced) {
   fem::Mesh mesh = read_source(recipe.mesh, progress).mesh;
-  require_same_mesh(recipe, mesh, key);
+  if (reduced != nullptr) {
+    require_same_mesh(recipe, mesh, reduced->content_key);
+  }
   const std::vector<Interface> interfaces = find_interfaces(mesh, recipe);
   const std::vector<int> held = find_clamped_nodes(mesh, recipe);
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
@@ -198,7 +200,7 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   const Vector3 center = fem::calc_mass_properties(M_s, mesh.x).center;
   const Matrix3X x_B = mesh.x.colwise() - center;
   std::vector<FullContactSurface> surfaces =
-      make_full_contact_surfaces(mesh, recipe, materials, center);
+      make_full_contact_surfaces(mesh, recipe, materials, center, reduced);
   const auto parts = std::make_shared<const SolidParts>(
       std::move(mesh), std::move(materials), held, M_s, options,
       std::move(surfaces));

@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "cli/impact_run.hpp"
+#include "cli/skin_link.hpp"
 
 namespace limber::test::full_contact_slow {
 namespace {
@@ -59,14 +61,20 @@ link = 'b.rod'
 nearest = [0.06, 0, 0]
 )";
 
-json strike(const std::string& level, const std::string& size = "0.005") {
+json strike(const std::string& level, const std::string& size = "0.005",
+            bool is_swapped = false) {
   const Workspace place;
-  std::string rod = kRod;
-  const std::string line = "MeshSize{:} = 0.005";
-  rod.replace(rod.find(line), line.size(), "MeshSize{:} = " + size);
-  place.write("rod.geo", rod);
+  const auto replace = [](std::string text, const std::string& part,
+                          const std::string& by) {
+    return text.replace(text.find(part), part.size(), by);
+  };
+  place.write("rod.geo",
+              replace(kRod, "MeshSize{:} = 0.005", "MeshSize{:} = " + size));
   place.write("rod.urdf", kRobot);
-  place.write("strike.toml", kScenario);
+  place.write("strike.toml", is_swapped
+                                 ? replace(kScenario, "['a.rod', 'b.rod']",
+                                           "['b.rod', 'a.rod']")
+                                 : kScenario);
   return run_for_summary(place, "strike.toml --fidelity " + level);
 }
 
@@ -75,11 +83,43 @@ json strike(const std::string& level, const std::string& size = "0.005") {
 // impulse 8.206 mN s, 288 us, peak 66.0 N. A slice's motion is its mean, so
 // that the peak depends on the place in it.
 TEST(FullContactRun, OfTwoFlexibleLinksIsThatOfBeams) {
-  const json coupled = strike("coupled");
-  const json impact = coupled["contacts"].at(0);
-  EXPECT_NEAR(impact["impulse"].get<double>(), 8.206e-3, 0.005 * 8.206e-3);
-  EXPECT_NEAR(impact["duration"].get<double>(), 288e-6, 0.07 * 288e-6);
-  EXPECT_NEAR(impact["peak_force"].get<double>(), 66.0, 0.15 * 66.0);
+  for (const auto& [level, longer] :
+       {std::pair{"coupled", 0.07}, std::pair{"full", 0.08}}) {
+    SCOPED_TRACE(level);
+    const json run = strike(level);
+    const json impact = run["contacts"].at(0);
+    EXPECT_NEAR(impact["impulse"].get<double>(), 8.206e-3, 0.005 * 8.206e-3);
+    EXPECT_NEAR(impact["duration"].get<double>(), 288e-6, longer * 288e-6);
+    EXPECT_NEAR(impact["peak_force"].get<double>(), 66.0, 0.15 * 66.0);
+  }
+}
+
+TEST(FullContactRun, OfTwoWholeMeshesDoesNotDependOnNames) {
+  const json one = strike("full");
+  const json other = strike("full", "0.005", true);
+  expect_same_impact(other, one, 1e-3, 1e-3);
+}
+
+constexpr const char* kEnd = R"(
+Point(1) = {0, -0.005, -0.005}; Point(2) = {0, 0.005, -0.005};
+Point(3) = {0, 0.005, 0.005}; Point(4) = {0, -0.005, 0.005};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve {1, 2, 3, 4} = 2; Transfinite Surface {1};
+Recombine Surface {1};
+swept[] = Extrude {1, 0, 0} { Surface{1}; Layers{60}; Recombine; };
+Physical Surface("tip") = {swept[0]};
+Physical Volume("body") = {swept[1]};
+Mesh.ElementOrder = 2;
+)";
+
+TEST(FullContactRun, OfARodsEndIsTheWaveSolution) {
+  for (const char* surface : {"skin", "tip"}) {
+    SCOPED_TRACE(surface);
+    const Workspace place;
+    place.write("rod.geo", kEnd);
+    expect_wave_impact(place, 0.01, 0.985, " --fidelity full", surface);
+  }
 }
 
 // Without friction the end would move by 240 and 120 um along x and y.

@@ -12,7 +12,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/shapes/shape_skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/pairs/touching.hpp"
 

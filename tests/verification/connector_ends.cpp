@@ -40,8 +40,8 @@ scene::BuiltScene build(const scene::Scene& scene) {
   return scene::build_system(
       scene, flexbody::make_reducer(), cache.path(),
       [](const flexbody::Recipe& recipe, const flexbody::FullOptions& options,
-         const std::string& key) {
-        return flexbody::make_full_body(recipe, options, {}, key);
+         const flexbody::ReducedBody& reduced) {
+        return flexbody::make_full_body(recipe, options, {}, &reduced);
       });
 }
 

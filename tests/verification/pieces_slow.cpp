@@ -107,8 +107,8 @@ class Pieces : public ::testing::Test {
         scene::load_scene(folder_.path() / "scene.toml"),
         flexbody::make_reducer(), folder_.path() / "cache",
         [](const flexbody::Recipe& recipe, const flexbody::FullOptions& options,
-           const std::string& key) {
-          return flexbody::make_full_body(recipe, options, {}, key);
+           const flexbody::ReducedBody& reduced) {
+          return flexbody::make_full_body(recipe, options, {}, &reduced);
         });
   }
 

@@ -47,11 +47,11 @@ scene::Reducer make_reducer(const Progress& progress) {
 }
 
 scene::FullMaker make_full_maker(const Progress& progress) {
-  return
-      [progress](const flexbody::Recipe& recipe,
-                 const flexbody::FullOptions& options, const std::string& key) {
-        return flexbody::make_full_body(recipe, options, progress, key);
-      };
+  return [progress](const flexbody::Recipe& recipe,
+                    const flexbody::FullOptions& options,
+                    const flexbody::ReducedBody& reduced) {
+    return flexbody::make_full_body(recipe, options, progress, &reduced);
+  };
 }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,

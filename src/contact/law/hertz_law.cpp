@@ -87,46 +87,6 @@ HertzLaw::Response HertzLaw::evaluate(double depth) const {
   return evaluate_root(find_root(depth));
 }
 
-HertzLaw::StepResponse HertzLaw::evaluate_over_step(double depth0,
-                                                    double depth1) const {
-  const double d0 = depth0;
-  const double d1 = depth1;
-  if (std::isnan(d0) || std::isnan(d1)) return {kNaN, kNaN};
-  if (!(d0 > 0.0) && !(d1 > 0.0)) return {};
-  if (std::max(d0, d1) > depth_limit_) return evaluate_beyond(d0, d1);
-  if (!(d1 > 0.0)) {  // it leaves
-    const double force = evaluate(d0).energy() / (d0 - d1);
-    return {force, force / (d0 - d1)};
-  }
-  const double s1 = find_root(d1);
-  if (!(d0 > 0.0)) {  // it touches
-    const Response end = evaluate_root(s1);
-    const double force = end.energy() / (d1 - d0);
-    return {force, (end.force - force) / (d1 - d0)};
-  }
-  // V1 - V0 and d1 - d0 are polynomials of s0 and s1; the factor s1 - s0 of
-  // both is divided out, and nothing cancels.
-  const double s0 = find_root(d0);
-  const double c = compliance_;
-  const double R = parameters_.residual;
-  const double cubic = (s1 + s0) * (s1 * s1 + s0 * s0);
-  const double quartic = s1 * cubic + s0 * s0 * s0 * s0;
-  const double quintic = s1 * quartic + s0 * s0 * s0 * s0 * s0;
-  const double work = 0.4 * c * quartic + 0.5 * R * quintic;
-  const double way = c * (s1 + s0) + R * (s1 * s1 + s1 * s0 + s0 * s0);
-  const double force = work / way;
-  if (s1 > 2.0 * s0 || 2.0 * s1 < s0) {
-    return {force, (s1 * s1 * s1 - force) / (d1 - d0)};
-  }
-  const double cubic_slope = 3.0 * s1 * s1 + 2.0 * s1 * s0 + s0 * s0;
-  const double quartic_slope = cubic + s1 * cubic_slope;
-  const double work_slope =
-      0.4 * c * quartic_slope + 0.5 * R * (quartic + s1 * quartic_slope);
-  const double way_slope = c + R * (2.0 * s1 + s0);
-  const double depth_slope = s1 * (2.0 * c + 3.0 * R * s1);
-  return {force, (work_slope - force * way_slope) / (way * depth_slope)};
-}
-
 HertzLaw::Response HertzLaw::find_state_of_energy(double energy) const {
   LIMBER_EXPECT(energy >= 0.0);
   if (energy == 0.0) return {};
@@ -166,25 +126,6 @@ HertzLaw::Response HertzLaw::extend(double beyond) const {
   response.hertz_energy = 0.4 * response.force * response.hertz_depth;
   response.residual_energy = energy - response.hertz_energy;
   return response;
-}
-
-// The mean over both parts of the step.
-HertzLaw::StepResponse HertzLaw::evaluate_beyond(double d0, double d1) const {
-  const double stiffness = -1.0 / parameters_.residual;
-  const double limit = depth_limit_;
-  const double force = evaluate_root(root_limit_).force;
-  const auto mean = [&](double from, double to) {
-    return force + 0.5 * stiffness * (from + to - 2.0 * limit);
-  };
-  const double way = d1 - d0;
-  if (d0 > limit && d1 > limit) return {mean(d0, d1), 0.5 * stiffness};
-  const double inner = d0 > limit
-                           ? evaluate_over_step(limit, d1).force * (d1 - limit)
-                           : evaluate_over_step(d0, limit).force * (limit - d0);
-  const double outer = d0 > limit ? mean(d0, limit) * (limit - d0)
-                                  : mean(limit, d1) * (d1 - limit);
-  const double whole = (inner + outer) / way;
-  return {whole, (evaluate(d1).force - whole) / way};
 }
 
 HertzLaw::Response HertzLaw::evaluate_root(double s) const {

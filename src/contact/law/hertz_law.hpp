@@ -39,12 +39,6 @@ class HertzLaw {
     }
   };
 
-  /// Over a step from a depth to another.
-  struct StepResponse {
-    double force = 0.0;      ///< (V(d1) - V(d0)) / (d1 - d0) [N]
-    double stiffness = 0.0;  ///< its derivative with respect to d1 [N/m]
-  };
-
   /// @throws InputError for a value outside its range.
   explicit HertzLaw(const Parameters& parameters);
 
@@ -53,12 +47,6 @@ class HertzLaw {
   /// At a depth d [m], by Newton's method to round-off; all zero at d <= 0, all
   /// NaN if d is NaN.
   [[nodiscard]] Response evaluate(double depth) const;
-
-  /// The force that balances the energies of a step, to round-off; f(d) and
-  /// half of f'(d) in the limit of equal depths. NaN if a depth is.
-  /// Source     discrete gradients: [@gonzalez1996]
-  [[nodiscard]] StepResponse evaluate_over_step(double depth0,
-                                                double depth1) const;
 
   /// The state in which it stores `energy` [J] >= 0, such as the deepest point
   /// of an impact; its depth is hertz_depth + residual_depth.
@@ -71,7 +59,6 @@ class HertzLaw {
   [[nodiscard]] Response evaluate_root(double s) const;
   /// At a depth beyond depth_limit_ by `beyond` [m].
   [[nodiscard]] Response extend(double beyond) const;
-  [[nodiscard]] StepResponse evaluate_beyond(double d0, double d1) const;
 
   Parameters parameters_;
   double cbrt_stiffness_ = 0.0;  // cbrt(k)

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/restitution.hpp"
 
 namespace limber::contact {
 namespace {
@@ -40,13 +39,6 @@ ImpactEstimate estimate_impact(const HertzLaw& law, double mass, double speed) {
   return {.duration = 2.0 * mass * speed * integrate(law, energy),
           .peak_force = peak.force,
           .peak_depth = peak.hertz_depth + peak.residual_depth};
-}
-
-HertzLaw make_default_law(double mass) {
-  LIMBER_EXPECT(mass > 0.0 && std::isfinite(mass));
-  const double radian = kImpactDuration / std::numbers::pi;
-  return HertzLaw(
-      {.stiffness = HertzLaw::kRigid, .residual = radian * radian / mass});
 }
 
 }  // namespace limber::contact

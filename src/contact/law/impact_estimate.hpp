@@ -34,11 +34,4 @@ struct ImpactEstimate {
 [[nodiscard]] ImpactEstimate estimate_impact(const HertzLaw& law, double mass,
                                              double speed);
 
-/// The law for two sides without material: linear, as stiff as the default of
-/// an end stop; a free impact lasts kImpactDuration at any speed.
-/// Equation   k rigid, R = (kImpactDuration / pi)^2 / m
-/// @param mass as above
-/// @throws ContractError for a mass outside its range.
-[[nodiscard]] HertzLaw make_default_law(double mass);
-
 }  // namespace limber::contact

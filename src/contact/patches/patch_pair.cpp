@@ -62,31 +62,24 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       mass_(A_, B_, parameters),
       parameters_(parameters),
       moduli_(find_patch_moduli(A_, B_, parameters)),
-      parts_A_(make_parts(A_)),
-      parts_B_(make_parts(B_)),
-      potentials_(make_potentials(parts_A_, parts_B_, moduli_.normal)),
+      finder_(make_finder(A_, B_, moduli_.normal, parameters)),
       size_(contact::find_size(A_.shape, B_.shape)),
-      law_(parameters, moduli_,
-           std::ranges::all_of(potentials_, &SeriesPotential::is_point),
-           size_) {
-  LIMBER_EXPECT(suits(A_, B_));
-}
+      law_(parameters, moduli_, finder_->is_point(), size_) {}
 
 void PatchPair::describe_parameters(Manifest& out) const {
   describe(out, A_, B_, parameters_);
 }
 
 std::size_t PatchPair::memory_size() const {
-  return potentials_.size() * kPatchNumbers + OpposedMass::kNumbers;
+  return finder_->count() * kPatchNumbers + OpposedMass::kNumbers;
 }
 
 std::size_t PatchPair::most_patches() const {
-  return std::min(potentials_.size(), kMostPatches);
+  return std::min(finder_->count(), kMostPatches);
 }
 
 void PatchPair::check(int modes_A, int modes_B) const {
-  for (const PatchPart& part : parts_A_) part.check(modes_A);
-  for (const PatchPart& part : parts_B_) part.check(modes_B);
+  finder_->check(modes_A, modes_B);
 }
 
 // A wrench that does minus the rise of the energy along a motion.
@@ -99,36 +92,19 @@ Vector6 PatchPair::correct(const Vector6& elastic_W, const Vector6& motion,
   return elastic_W - (rise + elastic_W.dot(motion)) / length * weighted;
 }
 
-PatchFrames PatchPair::find_frames(const PairBodies& bodies) const {
-  return {parts_A_, parts_B_, bodies};
-}
-
-PatchTouches PatchPair::find_patches(const PairBodies& bodies,
-                                     bool has_derivatives) const {
-  const PatchFrames frames = find_frames(bodies);
-  PatchTouches touches;
-  frames.visit_near(0.0, [&](std::size_t i, std::size_t j, double /*gap*/) {
-    const std::size_t k = i * parts_B_.size() + j;
-    PatchTouch touch{k, frames.A[i], frames.B[j], {}};
-    touch.patch = potentials_[k].evaluate({touch.A, touch.B}, has_derivatives);
-    if (touch.patch.touches) touches.add(touch);
-  });
-  return touches;
-}
-
 void PatchPair::add_missing(const PatchTouches& others,
                             PatchTouches& touches) const {
   for (const PatchTouch& other : others) {
     if (touches.find(other.index) != nullptr) continue;
     PatchTouch touch = other;
-    touch.patch = potentials_[touch.index].evaluate({touch.A, touch.B}, true);
+    touch.patch = finder_->evaluate(touch);
     touches.add(touch);
   }
 }
 
 double PatchPair::find_energy(const PairBodies& bodies) const {
   double energy = 0.0;
-  for (const PatchTouch& touch : find_patches(bodies, false)) {
+  for (const PatchTouch& touch : finder_->find_patches(bodies, false)) {
     energy += touch.patch.energy;
   }
   return energy;
@@ -148,12 +124,8 @@ PatchPoints PatchPair::place_points(const Patch& patch) const {
 void PatchPair::add_points(const PairBodies& bodies, const PatchTouch& touch,
                            const PatchPoints& points,
                            joints::PairResponse& out) const {
-  const PatchPart& A = parts_A_[touch.index / parts_B_.size()];
-  const PatchPart& B = parts_B_[touch.index % parts_B_.size()];
   for (const Vector3& place_W : points.places_W()) {
-    joints::PairPoint& point = out.add();
-    A.set_place(bodies.A, place_W, point.on_A);
-    B.set_place(bodies.B, place_W, point.on_B);
+    finder_->set_places(bodies, touch, place_W, out.add());
   }
 }
 
@@ -210,7 +182,7 @@ double PatchPair::find_released(const PatchTouches& touches, double t,
                                 std::span<const double> memory) const {
   double power = 0.0;
   if (!law_.has_friction()) return power;
-  for (std::size_t i = 0; i < potentials_.size(); ++i) {
+  for (std::size_t i = 0; i < finder_->count(); ++i) {
     const std::span<const double> slot = find_slot(memory, i);
     if (!is_touching(slot) || touches.find(i) != nullptr) continue;
     const PatchMemory last = load_patch(slot);
@@ -223,7 +195,7 @@ double PatchPair::find_released(const PatchTouches& touches, double t,
 void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
                          std::span<const double> memory,
                          joints::PairResponse& out) const {
-  const PatchTouches touches = find_patches(bodies, true);
+  const PatchTouches touches = finder_->find_patches(bodies, true);
   out.slip_power += find_released(touches, now.t, memory);
   if (touches.is_empty()) return;
   const PatchMotion all = find_motion(bodies, touches, memory);
@@ -243,9 +215,9 @@ void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
 void PatchPair::evaluate_over_step(const joints::PairStep& step,
                                    std::span<const double> memory,
                                    joints::PairResponse& out) const {
-  const PatchTouches begin = find_patches(step.begin, false);
-  const PatchTouches end = find_patches(step.end, false);
-  PatchTouches touches = find_patches(step.middle, true);
+  const PatchTouches begin = finder_->find_patches(step.begin, false);
+  const PatchTouches end = finder_->find_patches(step.end, false);
+  PatchTouches touches = finder_->find_patches(step.middle, true);
   const std::size_t of_middle = touches.size();
   // Patches that only an end has hold energy, too.
   add_missing(begin, touches);
@@ -305,10 +277,10 @@ void PatchPair::commit(const PairBodies& bodies, double t,
                        std::span<double> memory,
                        joints::PairResponse& /*scratch*/) const {
   if (!law_.has_friction()) return;
-  const PatchTouches touches = find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, false);
   PatchMotion all;
   if (!touches.is_empty()) all = find_motion(bodies, touches, memory);
-  for (std::size_t i = 0; i < potentials_.size(); ++i) {
+  for (std::size_t i = 0; i < finder_->count(); ++i) {
     const PatchTouch* touch = touches.find(i);
     const std::span<double> slot = find_slot(memory, i);
     if (touch == nullptr) {

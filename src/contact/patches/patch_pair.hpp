@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "limber/contact/patches/contact_side.hpp"
-#include "limber/contact/patches/patch_frames.hpp"
+#include "limber/contact/patches/patch_finder.hpp"
 #include "limber/contact/patches/patch_law.hpp"
 #include "limber/contact/patches/patch_memory.hpp"
 #include "limber/contact/patches/patch_touches.hpp"
-#include "limber/contact/patches/solid_gap.hpp"
-#include "limber/contact/potential/series_potential.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
 namespace limber::contact {
 
-/// Contact of two bodies of which PairPotential has an energy, such as boxes,
-/// cylinders and half spaces, or of flat surfaces of flexible bodies: a patch
-/// with one wrench for each pair of parts, of which a solid is one, wherever
-/// they touch.
+/// Contact of two bodies: a patch with one wrench for each pair of their convex
+/// parts, of which a solid is one, wherever they touch.
 ///
-/// Equation   SeriesPotential of a part's flexibility and, where the solids are
-///            stiffer than that, of what is left of 2 R_res without their own;
-///            PatchLaw; over a step of the energy-conserving
+/// Equation   the energies of PatchFinder; PatchLaw; over a step of the
+/// energy-conserving
 ///            scheme the elastic wrench w at its middle, corrected along the
 ///            relative motion m by -(W_1 - W_0 + w . m) N m / (m' N m), N =
 ///            diag(1, L^2) with the solids' size L
@@ -35,7 +30,6 @@ class PatchPair final : public joints::PairInteraction,
   /// @throws InputError, without the pair's name, for a value outside its
   /// range or a meaning, two sides of which neither has a finite mass, and a
   /// restitution of a body without inertia.
-  /// @throws ContractError unless suits(A, B).
   PatchPair(ContactSide A, ContactSide B, const ContactParameters& parameters);
 
   [[nodiscard]] std::string_view kind() const override { return "patch"; }
@@ -82,23 +76,13 @@ class PatchPair final : public joints::PairInteraction,
 
  private:
   struct Nearest;
-  struct NearestGap {
-    std::size_t index = 0;  // of the pair of parts
-    SolidGap gap;
-  };
 
-  [[nodiscard]] PatchFrames find_frames(const joints::PairBodies& bodies) const;
   void add_missing(const PatchTouches& others, PatchTouches& touches) const;
-  [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
-                                          bool has_derivatives) const;
   [[nodiscard]] double find_energy(const joints::PairBodies& bodies) const;
   // 0 of null [J].
   [[nodiscard]] static double find_energy(const PatchTouch* touch);
   [[nodiscard]] Vector6 correct(const Vector6& elastic_W, const Vector6& motion,
                                 double rise) const;
-  [[nodiscard]] SolidGap find_gap(std::size_t index,
-                                  const PatchFrames& frames) const;
-  [[nodiscard]] NearestGap find_nearest_gap(const PatchFrames& frames) const;
   [[nodiscard]] Nearest find_nearest_parts(
       const joints::PairBodies& bodies) const;
   [[nodiscard]] PatchPoints place_points(const Patch& patch) const;
@@ -125,9 +109,7 @@ class PatchPair final : public joints::PairInteraction,
   OpposedMass mass_;
   ContactParameters parameters_;
   PairModuli moduli_;
-  std::vector<PatchPart> parts_A_;
-  std::vector<PatchPart> parts_B_;
-  std::vector<SeriesPotential> potentials_;  // of all pairs, those of A first
+  std::unique_ptr<const PatchFinder> finder_;
   double size_;
   PatchLaw law_;
 };

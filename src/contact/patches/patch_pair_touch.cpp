@@ -9,7 +9,6 @@
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/patches/patch_slip.hpp"
 #include "limber/contact/patches/pressure_sum.hpp"
-#include "limber/contact/patches/solid_gap.hpp"
 #include "limber/contact/shapes/shape_measures.hpp"
 
 namespace limber::contact {
@@ -35,8 +34,7 @@ struct PatchPair::Nearest {
 // The deepest patch, or else the parts that are nearest to each other.
 PatchPair::Nearest PatchPair::find_nearest_parts(
     const PairBodies& bodies) const {
-  const PatchFrames frames = find_frames(bodies);
-  const PatchTouches touches = find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, false);
   const PatchTouch* deepest =
       std::max_element(touches.begin(), touches.end(),
                        [](const PatchTouch& a, const PatchTouch& b) {
@@ -51,55 +49,25 @@ PatchPair::Nearest PatchPair::find_nearest_parts(
   if (deepest != touches.end()) {
     const Patch& patch = deepest->patch;
     nearest.index = deepest->index;
+    nearest.A = deepest->A;
+    nearest.B = deepest->B;
     touch.depth = patch.depth;
     touch.normal_W = patch.normal_W();
     touch.p_W = patch.centre_W;
     if (patch.depth <= kThin * size_) {  // the normal may be round-off
-      const SolidGap gap = find_gap(nearest.index, frames);
+      const SolidGap gap = finder_->find_pair(bodies, nearest.index).gap;
       if (!gap.normal_W.isZero(0.0)) take_gap(gap);
     }
   } else {
-    const NearestGap apart = find_nearest_gap(frames);
+    const PatchFinder::Nearest apart = finder_->find_nearest(bodies);
     nearest.index = apart.index;
+    nearest.A = apart.A;
+    nearest.B = apart.B;
     touch.depth = -std::max(apart.gap.distance, 0.0);
     take_gap(apart.gap);
   }
-  nearest.A = frames.A[nearest.index / parts_B_.size()];
-  nearest.B = frames.B[nearest.index % parts_B_.size()];
   touch.rate = -touch.normal_W.dot(
       find_twist({nearest.A, nearest.B}, touch.p_W).head<3>());
-  return nearest;
-}
-
-SolidGap PatchPair::find_gap(std::size_t index,
-                             const PatchFrames& frames) const {
-  const std::size_t i = index / parts_B_.size();
-  const std::size_t j = index % parts_B_.size();
-  return contact::find_gap(parts_A_[i], parts_B_[j],
-                           {frames.A[i], frames.B[j]});
-}
-
-// Of the parts whose balls are nearest, then of all that may be nearer.
-PatchPair::NearestGap PatchPair::find_nearest_gap(
-    const PatchFrames& frames) const {
-  NearestGap nearest;
-  double least = std::numeric_limits<double>::infinity();
-  frames.visit_near(least, [&](std::size_t i, std::size_t j, double distance) {
-    if (distance > least) return;
-    least = distance;
-    nearest.index = i * parts_B_.size() + j;
-  });
-  const std::size_t first = nearest.index;
-  nearest.gap = find_gap(first, frames);
-  frames.visit_near(nearest.gap.distance,
-                    [&](std::size_t i, std::size_t j, double distance) {
-                      const std::size_t k = i * parts_B_.size() + j;
-                      if (k == first || !(distance < nearest.gap.distance))
-                        return;
-                      const SolidGap gap = find_gap(k, frames);
-                      if (gap.distance < nearest.gap.distance)
-                        nearest = {k, gap};
-                    });
   return nearest;
 }
 
@@ -109,7 +77,7 @@ joints::PairTouch PatchPair::find_touch(
 }
 
 double PatchPair::find_clearance(const PairBodies& bodies) const {
-  return std::max(find_nearest_gap(find_frames(bodies)).gap.distance, 0.0);
+  return std::max(finder_->find_distance(bodies), 0.0);
 }
 
 double PatchPair::find_speed_bound(const PairBodies& bodies) const {
@@ -186,7 +154,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
                                      joints::PairResponse& /*scratch*/) const {
   constexpr double kMostDamping = 4.0;
   joints::TouchReading reading;
-  const PatchTouches touches = find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, false);
   if (touches.is_empty()) return reading;
   const PatchMotion all = find_motion(bodies, touches, memory);
   Vector3 normals = Vector3::Zero();
@@ -204,7 +172,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     // Of a round flat, or a ball, with this force and energy.
     const double p = patch.exponent;
     const double depth = (p + 1.0) * patch.energy / elastic;
-    const double modulus = potentials_[touch.index].modulus();
+    const double modulus = finder_->modulus(touch.index);
     reading.area +=
         std::numbers::pi * std::pow(p * elastic / (2.0 * modulus * depth), 2);
     reading.energy += patch.energy + response.energy;

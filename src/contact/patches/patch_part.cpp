@@ -68,6 +68,7 @@ PatchPart::PatchPart(const flexbody::ContactSlice& slice,
 
 void PatchPart::check(int modes) const {
   if (!is_flexible() || motion_B_.cols() == modes) return;
+  if (nodes_ != nullptr && nodes_->least_coordinates() <= modes) return;
   throw InputError(
       fmt::format("contact: a surface of {} modes is on a body of {}",
                   motion_B_.cols(), modes));
@@ -77,24 +78,47 @@ Vector6 PatchPart::move(const double* eta) const {
   return motion_B_ * Eigen::Map<const VectorX>(eta, motion_B_.cols());
 }
 
-joints::PairBody PatchPart::find_motion(const joints::PairBody& body) const {
-  joints::PairBody part;
-  Vector6 motion = Vector6::Zero();
-  Vector6 rate = Vector6::Zero();
-  if (is_flexible()) {
-    motion = move(body.eta);
-    if (body.etadot != nullptr) rate = move(body.etadot);
+PatchPart::Motion PatchPart::find_own_motion(
+    const joints::PairBody& body) const {
+  Motion out;
+  if (!is_flexible()) return out;
+  if (nodes_ != nullptr) {
+    const NodalMotion::State state = nodes_->find_state(body.eta);
+    out.X = state.X;
+    if (body.etadot != nullptr) {
+      out.rate = nodes_->find_rate(state, body.etadot);
+    }
+    return out;
   }
-  const Vector3 arm = centre_B_ + motion.head<3>();
+  const Vector6 motion = move(body.eta);
   const Vector3 turn = motion.tail<3>();
-  const Matrix3 R_BP = exp_rotation(turn);
-  const Vector3 spin = body.w_WB_B + left_jacobian(turn) * rate.tail<3>();
-  part.R_WB = body.R_WB * R_BP;
+  out.X = {exp_rotation(turn), motion.head<3>()};
+  if (body.etadot == nullptr) return out;
+  const Vector6 rate = move(body.etadot);
+  out.rate << out.X.R.transpose() * rate.head<3>(),
+      out.X.R.transpose() * (left_jacobian(turn) * rate.tail<3>());
+  return out;
+}
+
+joints::PairBody PatchPart::find_motion(const joints::PairBody& body) const {
+  const Motion own = find_own_motion(body);
+  const Vector3 arm = centre_B_ + own.X.p;
+  joints::PairBody part;
+  part.R_WB = body.R_WB * own.X.R;
   part.p_WB = body.p_WB + body.R_WB * arm;
-  part.v_WB_W =
-      body.v_WB_W + body.R_WB * (body.w_WB_B.cross(arm) + rate.head<3>());
-  part.w_WB_B = R_BP.transpose() * spin;
+  part.v_WB_W = body.v_WB_W + body.R_WB * (body.w_WB_B.cross(arm) +
+                                           own.X.R * own.rate.head<3>());
+  part.w_WB_B = own.X.R.transpose() * body.w_WB_B + own.rate.tail<3>();
   return part;
+}
+
+void PatchPart::set_modal_rows(const joints::PairBody& body, const Vector3& arm,
+                               Matrix3X& out) const {
+  const Vector6 motion = move(body.eta);
+  const Vector3 r = arm - centre_B_ - motion.head<3>();
+  const Matrix3 by_turn = -skew(r) * left_jacobian(motion.tail<3>());
+  out = motion_B_.topRows<3>();
+  out.noalias() += by_turn.lazyProduct(motion_B_.bottomRows<3>());
 }
 
 void PatchPart::set_place(const joints::PairBody& body, const Vector3& p_W,
@@ -102,11 +126,12 @@ void PatchPart::set_place(const joints::PairBody& body, const Vector3& p_W,
   const Vector3 arm = body.R_WB.transpose() * (p_W - body.p_WB);
   out.x_B = arm;
   if (!is_flexible()) return;
-  const Vector6 motion = move(body.eta);
-  const Vector3 r = arm - centre_B_ - motion.head<3>();
-  const Matrix3 by_turn = -skew(r) * left_jacobian(motion.tail<3>());
-  out.Phi_B = motion_B_.topRows<3>();
-  out.Phi_B.noalias() += by_turn.lazyProduct(motion_B_.bottomRows<3>());
+  if (nodes_ != nullptr) {
+    const NodalMotion::State state = nodes_->find_state(body.eta);
+    nodes_->set_rows(state, state.X.inverse() * (arm - centre_B_), out.Phi_B);
+  } else {
+    set_modal_rows(body, arm, out.Phi_B);
+  }
   out.x_B.noalias() -= out.Phi_B.lazyProduct(
       Eigen::Map<const VectorX>(body.eta, out.Phi_B.cols()));
 }

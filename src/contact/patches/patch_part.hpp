@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 
+#include "limber/contact/patches/nodal_motion.hpp"
 #include "limber/contact/potential/body_kind.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
@@ -14,7 +16,7 @@ namespace limber::contact {
 /// Immutable.
 ///
 /// Equation   p_P = p_B + R_B (c + u), R_P = R_B exp(theta), (u, theta) =
-///            motion_B eta
+///            motion_B eta; at level `full` NodalMotion
 class PatchPart {
  public:
   explicit PatchPart(const PlacedBody& body);
@@ -22,6 +24,11 @@ class PatchPart {
   PatchPart(const flexbody::ContactPart& part, double flexibility);
   /// @param body that stands for the slice, in the flexible body's frame
   PatchPart(const flexbody::ContactSlice& slice, const PlacedBody& body);
+
+  /// Moves it, of a flexible surface at level `full`, with the nodes of a mesh.
+  void move_with(const flexbody::NodalPiece& piece) {
+    nodes_ = std::make_shared<const NodalMotion>(piece);
+  }
 
   /// About it, in P; of a half space the radius is infinite.
   [[nodiscard]] const ConvexSolid::Ball& ball() const { return ball_; }
@@ -36,7 +43,9 @@ class PatchPart {
   /// Of the layer under a flexible part's faces, in P; 0 of others [m/N].
   [[nodiscard]] const Matrix3& flexibility() const { return flexibility_; }
 
-  [[nodiscard]] bool is_flexible() const { return motion_B_.cols() > 0; }
+  [[nodiscard]] bool is_flexible() const {
+    return nodes_ != nullptr || motion_B_.cols() > 0;
+  }
   /// Whether P is not the frame of the body.
   [[nodiscard]] bool has_own_frame() const {
     return is_flexible() || !centre_B_.isZero(0.0);
@@ -53,14 +62,24 @@ class PatchPart {
   void check(int modes) const;
 
  private:
+  // How far it is moved by the modes or the nodes, and how fast in its own
+  // axes.
+  struct Motion {
+    Pose X;                          // from its undeformed centre, body's axes
+    Vector6 rate = Vector6::Zero();  // (v, w), axes of P
+  };
+  [[nodiscard]] Motion find_own_motion(const joints::PairBody& body) const;
   // (u, theta) of modal coordinates or velocities.
   [[nodiscard]] Vector6 move(const double* eta) const;
+  void set_modal_rows(const joints::PairBody& body, const Vector3& arm,
+                      Matrix3X& out) const;
 
   ConvexSolid::Ball ball_;
   PlacedBody body_;
   std::optional<Shape> shape_;
   Vector3 centre_B_ = Vector3::Zero();
   MatrixX motion_B_ = MatrixX(6, 0);
+  std::shared_ptr<const NodalMotion> nodes_;  // at level `full`
   Matrix3 flexibility_ = Matrix3::Zero();
 };
 

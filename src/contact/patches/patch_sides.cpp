@@ -8,6 +8,9 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/patches/ball_on_skin.hpp"
+#include "limber/contact/patches/part_patches.hpp"
+#include "limber/contact/patches/patch_moduli.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
@@ -46,35 +49,21 @@ double find_flexibility(const flexbody::ContactPart& part,
   return part.flexibility + std::max(2.0 * part.residual - own, 0.0);
 }
 
-bool is_rigid_mesh(const ContactSide& side) {
-  return !side.bodies.empty() && side.slices.empty();
-}
-
-bool is_flexible(const ContactSide& side) {
-  return find_skin(side) != nullptr && !is_rigid_mesh(side);
-}
-
-bool is_ball(const ContactSide& side) {
-  return std::holds_alternative<Sphere>(side.shape.kind);
-}
-
 bool has_parts(const ContactSide& side) {
   const Skin* skin = find_skin(side);
   return skin == nullptr || !side.bodies.empty() ||
          !skin->surface().parts.empty();
 }
 
-// Hertz's law of a ball on a flexible surface is exact, with the flexibility
-// where it touches.
-bool is_ball_on_skin(const ContactSide& ball, const ContactSide& skin) {
-  return is_ball(ball) && is_flexible(skin);
-}
-
 }  // namespace
 
+bool has_ball_on_skin(const ContactSide& A, const ContactSide& B) {
+  return BallOnSkin::suits(A, B) || BallOnSkin::suits(B, A);
+}
+
 bool suits(const ContactSide& A, const ContactSide& B) {
+  if (has_ball_on_skin(A, B)) return true;
   if (!has_parts(A) || !has_parts(B)) return false;
-  if (is_ball_on_skin(A, B) || is_ball_on_skin(B, A)) return false;
   const std::vector<PatchPart> parts_A = make_parts(A);
   const std::vector<PatchPart> parts_B = make_parts(B);
   if (parts_A.size() * parts_B.size() > kMostPairs) return false;
@@ -92,9 +81,11 @@ std::vector<PatchPart> make_parts(const ContactSide& side) {
     const PlacedBody& body = side.bodies[i];
     if (side.slices.empty()) {
       parts.emplace_back(body);
-    } else {
-      parts.emplace_back(skin->surface().slices[side.slices[i]], body);
+      continue;
     }
+    const std::size_t slice = side.slices[i];
+    parts.emplace_back(skin->surface().slices[slice], body);
+    if (skin->has_pieces()) parts.back().move_with(skin->pieces()[slice]);
   }
   if (!parts.empty()) return parts;
   if (skin == nullptr) {
@@ -102,22 +93,26 @@ std::vector<PatchPart> make_parts(const ContactSide& side) {
     return {PatchPart(body)};
   }
   for (const flexbody::ContactPart& part : skin->surface().parts) {
+    const std::size_t i = parts.size();
     parts.emplace_back(part, find_flexibility(part, side.material));
+    if (skin->has_pieces()) parts.back().move_with(skin->pieces()[i]);
   }
   return parts;
 }
 
-std::vector<SeriesPotential> make_potentials(
-    const std::vector<PatchPart>& parts_A,
-    const std::vector<PatchPart>& parts_B, double modulus) {
-  std::vector<SeriesPotential> potentials;
-  for (const PatchPart& A : parts_A) {
-    for (const PatchPart& B : parts_B) {
-      potentials.emplace_back(A.body(), B.body(), modulus, A.flexibility(),
-                              B.flexibility());
-    }
+std::unique_ptr<const PatchFinder> make_finder(
+    const ContactSide& A, const ContactSide& B, double modulus,
+    const ContactParameters& parameters) {
+  LIMBER_EXPECT(suits(A, B));
+  if (!has_ball_on_skin(A, B)) {
+    return std::make_unique<const PartPatches>(make_parts(A), make_parts(B),
+                                               modulus);
   }
-  return potentials;
+  std::optional<double> radius;
+  if (parameters.radius || parameters.stiffness) {
+    radius = find_touch_radius(A, B);
+  }
+  return std::make_unique<const BallOnSkin>(A, B, modulus, radius);
 }
 
 }  // namespace limber::contact

@@ -8,6 +8,7 @@
 #include "limber/common/stack_array.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
+#include "limber/contact/shapes/shape.hpp"
 
 /// The patches of a pair at one time, without allocation.
 namespace limber::contact {
@@ -21,6 +22,7 @@ struct PatchTouch {
   joints::PairBody A;     ///< both parts, as bodies without modes
   joints::PairBody B;
   Patch patch;
+  SurfacePlace place = {};  ///< of a ball on a flexible surface
 };
 
 /// Up to kMostPatches, by their indices.

@@ -34,7 +34,7 @@ std::optional<ConvexSolid> cut_out(const ConvexSolid& solid,
   return presses ? part : std::nullopt;
 }
 
-// @return whether there is any
+// @return whether there are not too many
 bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
   for (const ConvexSolid& solid : split_mesh(surface.x_B, surface.faces)) {
     for (std::size_t i = 0; i < surface.slices.size(); ++i) {
@@ -48,21 +48,87 @@ bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
   return !out.bodies.empty();
 }
 
-// @return whether every slice has one
-bool add_bodies(const flexbody::ContactSurface& surface,
+// One of each slice that has facets.
+void add_bodies(const flexbody::ContactSurface& surface,
                 const std::vector<SkinFacet>& facets, SkinParts& out) {
   const std::vector<bool> is_exact = find_exact_nodes(surface);
   for (std::size_t i = 0; i < surface.slices.size(); ++i) {
     const SkinSlice slice(surface, facets, is_exact, surface.slices[i]);
     auto found = find_round_body(slice);
     if (!found) found = find_hull(slice);
-    if (!found) return false;
+    if (!found) continue;
     out.bodies.push_back(std::move(found->body));
     out.slices.push_back(i);
     out.error = std::max(out.error, found->error);
   }
-  return true;
 }
+
+/// Boxes along the axes, of which those whose hulls are farthest from the
+/// surface are halved.
+class MeshCover {
+ public:
+  explicit MeshCover(const flexbody::ContactSurface& mesh)
+      : mesh_(mesh),
+        facets_(find_facets(mesh)),
+        is_exact_(find_exact_nodes(mesh)) {}
+
+  SkinParts run() {
+    constexpr double kClose = 1e-3;  // of the mesh's size
+    const Vector3 low = mesh_.x_B.rowwise().minCoeff();
+    const Vector3 high = mesh_.x_B.rowwise().maxCoeff();
+    flexbody::ContactSlice whole;
+    whole.normals_B.resize(3, 0);
+    add({low, high, std::move(whole), {}});
+    while (boxes_.size() < kMostSkinParts) {
+      const auto worst = std::ranges::max_element(
+          boxes_, {}, [](const Box& box) { return box.hull->error; });
+      if (worst->hull->error <= kClose * (high - low).norm()) break;
+      const Box box = *worst;
+      boxes_.erase(worst);
+      int axis = 0;
+      (void)(box.high - box.low).maxCoeff(&axis);
+      add(halve(box, axis, 1.0));
+      add(halve(box, axis, -1.0));
+    }
+    SkinParts out;
+    for (const Box& box : boxes_) {
+      out.bodies.push_back(box.hull->body);
+      out.error = std::max(out.error, box.hull->error);
+    }
+    return out;
+  }
+
+ private:
+  struct Box {
+    Vector3 low;
+    Vector3 high;
+    flexbody::ContactSlice planes;  // to the boxes beside it
+    std::optional<SliceBody> hull;
+  };
+
+  static Box halve(const Box& box, int axis, double sign) {
+    Box half = box;
+    const double middle = 0.5 * (box.low[axis] + box.high[axis]);
+    (sign > 0.0 ? half.high : half.low)[axis] = middle;
+    const Eigen::Index k = box.planes.heights.size();
+    half.planes.normals_B.conservativeResize(Eigen::NoChange, k + 1);
+    half.planes.heights.conservativeResize(k + 1);
+    half.planes.normals_B.col(k) = sign * Vector3::Unit(axis);
+    half.planes.heights[k] = sign * middle;
+    return half;
+  }
+
+  // Unless nothing of the surface is in it.
+  void add(Box box) {
+    box.hull = find_hull(SkinSlice(mesh_, facets_, is_exact_, box.planes));
+    if (box.hull) boxes_.push_back(std::move(box));
+  }
+
+  const flexbody::ContactSurface& mesh_;
+  std::vector<SkinFacet> facets_;
+  std::vector<bool> is_exact_;
+  std::vector<Box> boxes_;
+};
 
 }  // namespace
 
@@ -70,10 +136,14 @@ SkinParts split_skin(const flexbody::ContactSurface& surface) {
   SkinParts out;
   if (surface.slices.empty()) return out;
   const std::vector<SkinFacet> facets = find_facets(surface);
-  const bool is_whole = is_polyhedral(facets)
-                            ? add_solids(surface, out)
-                            : add_bodies(surface, facets, out);
-  return is_whole ? out : SkinParts{};
+  if (is_polyhedral(facets) && add_solids(surface, out)) return out;
+  out = {};
+  add_bodies(surface, facets, out);
+  return out;
+}
+
+SkinParts cover_mesh(const flexbody::ContactSurface& mesh) {
+  return MeshCover(mesh).run();
 }
 
 }  // namespace limber::contact

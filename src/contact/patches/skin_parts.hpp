@@ -27,8 +27,15 @@ struct SkinParts {
 /// by the planes of each slice. Faces in these planes do not press.
 /// Of another surface each slice is one body: a ball, a cylinder with its ends,
 /// or a capsule (see find_round_body), or else a hull (see find_hull).
-/// @returns nothing of a surface without slices, or where a slice has no body,
-/// or of more than kMostSkinParts bodies
+/// So is one of flat faces that has more than kMostSkinParts of these parts.
+/// @returns nothing of a surface without slices
 [[nodiscard]] SkinParts split_skin(const flexbody::ContactSurface& surface);
+
+/// Convex bodies that stand for a rigid mesh which split_mesh does not divide,
+/// or divides too finely: hulls (see find_hull) of what lies in boxes, which
+/// are halved where the hulls are farther from the surface than 1e-3 of its
+/// size, up to kMostSkinParts.
+/// @returns no slices
+[[nodiscard]] SkinParts cover_mesh(const flexbody::ContactSurface& mesh);
 
 }  // namespace limber::contact

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "limber/contact/narrow_phase/lowest_point.hpp"
-#include "limber/contact/narrow_phase/nearest_cores.hpp"
+#include "limber/contact/shapes/lowest_point.hpp"
+#include "limber/contact/shapes/nearest_cores.hpp"
 
 namespace limber::contact {
 namespace {

@@ -119,24 +119,6 @@ double FacePatch::find_bulge() const {
   return std::sqrt(bend) / 24.0;
 }
 
-FacePatch::Range FacePatch::find_range(const Vector3& way) const {
-  const double x = way.dot(x_);
-  const double u = way.dot(x_u_);
-  const double v = way.dot(x_v_);
-  if (is_straight_) {
-    return {std::min({x, x + u, x + v}), std::max({x, x + u, x + v})};
-  }
-  const std::array<double, 6> controls = {x,
-                                          x + u + 0.5 * way.dot(x_uu_),
-                                          x + v + 0.5 * way.dot(x_vv_),
-                                          x + 0.5 * u,
-                                          x + 0.5 * v,
-                                          x + 0.5 * (u + v + way.dot(x_uv_))};
-  const auto [low, high] =
-      std::minmax_element(controls.begin(), controls.end());
-  return {*low, *high};
-}
-
 FacePatch::FlatNearest FacePatch::find_nearest_of_flat(const Vector3& p) const {
   // The triangles: origin, and steps in u and v to the other corners.
   struct Part {

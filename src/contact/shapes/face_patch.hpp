@@ -19,20 +19,9 @@ struct FacePlace {
   }
 };
 
-/// The corners 0, 1, 2 of a face, and its middle.
+/// The corners 0, 1, 2 of a face.
 inline constexpr std::array<FacePlace, 3> kFaceCorners = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-inline constexpr FacePlace kFaceMiddle{1.0 / 3.0, 1.0 / 3.0};
-
-/// The place at the fraction s of the way from one to another.
-[[nodiscard]] constexpr FacePlace find_between(const FacePlace& from,
-                                               const FacePlace& to, double s) {
-  return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v)};
-}
-/// The place at the fraction s of an edge: 01, 12 or 20.
-[[nodiscard]] constexpr FacePlace find_between(std::size_t edge, double s) {
-  return find_between(kFaceCorners[edge], kFaceCorners[(edge + 1) % 3], s);
-}
 
 /// The surface of a straight or quadratic triangle.
 ///
@@ -55,10 +44,6 @@ class FacePatch {
   [[nodiscard]] Vector3 find_tangent_v(const FacePlace& at) const {
     return x_v_ + at.u * x_uv_ + at.v * x_vv_;
   }
-  /// Second derivatives, constant over the face [m].
-  [[nodiscard]] const Vector3& x_uu() const { return x_uu_; }
-  [[nodiscard]] const Vector3& x_uv() const { return x_uv_; }
-  [[nodiscard]] const Vector3& x_vv() const { return x_vv_; }
   /// Not of unit length.
   [[nodiscard]] Vector3 find_normal(const FacePlace& at) const {
     return find_tangent_u(at).cross(find_tangent_v(at));
@@ -74,13 +59,6 @@ class FacePatch {
   /// An upper bound of the distance of the patch from the four flat triangles
   /// between its nodes [m].
   [[nodiscard]] double find_bulge() const;
-
-  struct Range {
-    double low = 0.0;   ///< [m]
-    double high = 0.0;  ///< [m]
-  };
-  /// Range of way . x over the patch, from its control points: not too narrow.
-  [[nodiscard]] Range find_range(const Vector3& way) const;
 
   struct FlatNearest {
     FacePlace at;

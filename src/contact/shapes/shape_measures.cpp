@@ -92,13 +92,6 @@ double find_size(const Shape& A, const Shape& B) {
   return std::min(size_A, size_B);
 }
 
-Vector3 find_point(const joints::PairBody& body, const Shape& shape,
-                   const SurfacePlace& surface, joints::PairPlace& scratch) {
-  set_shape_functions(shape, surface, scratch.Phi_B);
-  scratch.x_B = surface.x_B;
-  return find_position(body, scratch);
-}
-
 VectorX find_mode_reach(const Shape& shape) {
   const auto* skin = std::get_if<SkinPointer>(&shape.kind);
   if (skin == nullptr) return VectorX::Zero(0);

@@ -21,13 +21,6 @@ void describe(Manifest& out, std::string_view name, const Shape& shape);
 /// The smaller of both shapes' roundnesses; a half space has none [m].
 [[nodiscard]] double find_size(const Shape& A, const Shape& B);
 
-/// Present position of a material point of a body's shape, world frame [m].
-/// @param scratch memory for the point as a place of the body
-[[nodiscard]] Vector3 find_point(const joints::PairBody& body,
-                                 const Shape& shape,
-                                 const SurfacePlace& surface,
-                                 joints::PairPlace& scratch);
-
 /// For each mode the largest displacement of a node of the shape, m entries
 /// [kg^-1/2].
 [[nodiscard]] VectorX find_mode_reach(const Shape& shape);

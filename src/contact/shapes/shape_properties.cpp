@@ -106,20 +106,6 @@ int count_modes(const Shape& shape) {
   return skin == nullptr ? 0 : (*skin)->mode_count();
 }
 
-void set_shape_functions(const Shape& shape, const SurfacePlace& place,
-                         Matrix3X& out) {
-  if (count_modes(shape) == 0) {
-    out.setZero();
-    return;
-  }
-  std::get<SkinPointer>(shape.kind)->set_shape_functions(place, out);
-}
-
-double find_residual(const Shape& shape, const SurfacePlace& place) {
-  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
-  return skin == nullptr ? 0.0 : (*skin)->find_residual(place);
-}
-
 double find_extent(const Shape& shape, const joints::PairBody& body) {
   return shape.X_BS.p.norm() + find_size(shape.kind, body);
 }

@@ -19,18 +19,6 @@ void check_shape(const Shape& shape);
 /// Number of the body's modes that move the shape: 0 except for a Skin.
 [[nodiscard]] int count_modes(const Shape& shape);
 
-/// The modes' rows at a place of a shape, whose position is x_B + out eta. All
-/// zero for a shape that does not deform. Does not allocate.
-/// @param out 3 x m of the body [kg^-1/2]
-/// @throws ContractError if a Skin has another number of modes.
-void set_shape_functions(const Shape& shape, const SurfacePlace& place,
-                         Matrix3X& out);
-
-/// Residual flexibility at the place: the displacement per force on it that the
-/// modes lack, 0 for shapes that do not deform [m/N].
-[[nodiscard]] double find_residual(const Shape& shape,
-                                   const SurfacePlace& place);
-
 /// An upper bound of the distance of the deformed shape's points from Bo;
 /// infinite for a half space [m].
 [[nodiscard]] double find_extent(const Shape& shape,

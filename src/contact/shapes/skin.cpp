@@ -12,10 +12,6 @@
 namespace limber::contact {
 namespace {
 
-// Weights of corners 1 and 2 at a face's nodes.
-constexpr std::array<FacePlace, 6> kNodePlaces = {
-    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
-
 Eigen::Index column_of(int node) { return 3 * Eigen::Index{node}; }
 
 }  // namespace
@@ -27,6 +23,7 @@ Skin::Skin(flexbody::ContactSurface surface) : surface_(std::move(surface)) {
 Skin::Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes)
     : surface_(std::move(surface.surface)),
       means_(std::move(surface.means)),
+      pieces_(std::move(surface.pieces)),
       mesh_nodes_(mesh_nodes) {
   check_means();
   prepare();
@@ -43,8 +40,6 @@ void Skin::prepare() {
   set_bounds();
   tree_ = SkinTree(surface_.faces, surface_.x_B,
                    modes_.rows() > 0 ? surface_.Phi_B : MatrixX(3 * n, 0));
-  measure();
-  if (pad_count() > 0) measure_flat_area();
 }
 
 void Skin::check() const {
@@ -61,15 +56,6 @@ void Skin::check() const {
         fmt::format("has {} nodes, {} rows of modes and {} residual "
                     "flexibilities; expected 3 n and n",
                     n, s.Phi_B.rows(), s.residual.size()));
-  }
-  const flexbody::ContactPads& pads = s.pads;
-  const Eigen::Index k = pads.count();
-  if (pads.area.size() != k || pads.flexibility.rows() != k ||
-      pads.flexibility.cols() != k ||
-      pads.Phi_B.cols() * k != s.Phi_B.cols() * k ||
-      (k > 0 && pads.Phi_B.rows() != 3 * k) || !pads.x_B.allFinite() ||
-      !pads.Phi_B.allFinite() || !pads.flexibility.allFinite()) {
-    refuse("has pads whose sizes do not fit, or that are not finite");
   }
   if (!s.x_B.allFinite() || !s.Phi_B.allFinite() || !s.residual.allFinite()) {
     refuse("has a position, mode or residual flexibility that is not finite");
@@ -99,7 +85,6 @@ void Skin::check_means() const {
     return node < 0 || node >= mesh_nodes_;
   };
   if (means_.first.size() == n + 1 && surface_.Phi_B.cols() == 0 &&
-      surface_.pads.count() == 0 &&
       means_.first.back() == means_.nodes.size() &&
       means_.weights.size() == means_.nodes.size() &&
       std::none_of(means_.nodes.begin(), means_.nodes.end(), is_beyond)) {
@@ -112,21 +97,18 @@ void Skin::check_means() const {
 }
 
 void Skin::connect() {
-  const auto n = static_cast<std::size_t>(surface_.x_B.cols());
-  owners_.resize(n);
+  const std::size_t n = node_count();
+  std::vector<bool> has_face(n, false);
   first_faces_.assign(n + 1, 0);
-  for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
-    const Face& nodes = surface_.faces[f];
-    for (int i = 0; i < 6; ++i) {
-      const int node = nodes[index(i)];
-      if (node < 0) continue;
-      Owner& owner = owners_[index(node)];
-      if (owner.face < 0) owner = {static_cast<int>(f), i};
-      if (i < 3) ++first_faces_[index(node) + 1];
+  for (const Face& nodes : surface_.faces) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (nodes[i] < 0) continue;
+      has_face[index(nodes[i])] = true;
+      if (i < 3) ++first_faces_[index(nodes[i]) + 1];
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (owners_[i].face < 0) {
+    if (!has_face[i]) {
       throw InputError(fmt::format(
           "contact: its surface '{}' has a node in no face: node {}",
           surface_.name, i));
@@ -179,7 +161,7 @@ void Skin::set_bounds() {
     return modes_.middleCols<3>(column_of(node)).transpose();
   };
   if (has_means()) {
-    for (std::size_t n = 0; n < owners_.size(); ++n) {
+    for (std::size_t n = 0; n < node_count(); ++n) {
       // For a control point, three times that of a node.
       spread_ = std::max(spread_, 3.0 * sum_weights(static_cast<int>(n)));
     }
@@ -266,20 +248,6 @@ SurfacePlace Skin::make_place(int f, const FacePlace& at) const {
   return place;
 }
 
-Skin::NodeHit Skin::make_node_hit(int node, double height, const Vector3& x,
-                                  const ModalView& eta) const {
-  const Owner& owner = owners_[index(node)];
-  const FacePlace at = kNodePlaces[index(owner.corner)];
-  return {.node = index(node),
-          .height = height,
-          .x = x,
-          .place = {.x_B = surface_.x_B.col(node),
-                    .face = owner.face,
-                    .u = at.u,
-                    .v = at.v},
-          .curvature = deform_face(owner.face, eta).find_mean_curvature(at)};
-}
-
 double Skin::find_deformation_bound(const ModalView& eta) const {
   if (has_means()) return spread_ * eta[eta.size() - 1];
   return largest_motions_.dot(eta.cwiseAbs());
@@ -289,55 +257,7 @@ double Skin::find_extent(const ModalView& eta) const {
   return centre_.norm() + radius_ + find_deformation_bound(eta);
 }
 
-double Skin::find_lowest_height(const Plane& plane,
-                                const ModalView& eta) const {
-  double least = std::numeric_limits<double>::infinity();
-  std::array<int, SkinTree::kMostLevels> stack{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const int i = stack[--size];
-    const double bound = tree_.find_box(i, eta).find_lowest(plane.normal);
-    if (bound - plane.offset >= least) continue;
-    const SkinTree::Node& node = tree_.node(i);
-    if (!node.is_leaf()) {
-      stack[size++] = node.right;
-      stack[size++] = i + 1;
-      continue;
-    }
-    for (const int f : tree_.find_faces(node)) {
-      for (const int n : face(f)) {
-        if (n < 0 || owners_[index(n)].face != f) continue;
-        least =
-            std::min(least, plane.normal.dot(deform(n, eta)) - plane.offset);
-      }
-    }
-  }
-  return least;
-}
-
-Eigen::Index Skin::pad_of(const SurfacePlace& place) const {
-  const auto pad = place.face - static_cast<int>(surface_.faces.size());
-  return pad < surface_.pads.count() ? pad : -1;
-}
-
-Skin::PadHit Skin::find_pad(std::size_t pad, const ModalView& eta) const {
-  const auto i = static_cast<Eigen::Index>(pad);
-  const flexbody::ContactPads& pads = surface_.pads;
-  PadHit hit;
-  hit.place.x_B = hit.x = pads.x_B.col(i);
-  hit.place.face = static_cast<int>(surface_.faces.size() + pad);
-  for (Eigen::Index k = 0; k < eta.size(); ++k) {
-    hit.x += eta[k] * pads.Phi_B.col(k).segment<3>(3 * i);
-  }
-  return hit;
-}
-
 void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
-  if (const Eigen::Index pad = pad_of(place); pad >= 0) {
-    LIMBER_EXPECT(out.cols() == modes_.rows());
-    out = surface_.pads.Phi_B.middleRows<3>(3 * pad);
-    return;
-  }
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   LIMBER_EXPECT(out.cols() == mode_count());
   const Face& nodes = face(place.face);
@@ -362,9 +282,6 @@ void Skin::add_rows(int node, double weight, Matrix3X& out) const {
 }
 
 double Skin::find_residual(const SurfacePlace& place) const {
-  if (const Eigen::Index pad = pad_of(place); pad >= 0) {
-    return surface_.pads.flexibility(pad, pad);
-  }
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   const Face& nodes = face(place.face);
   const auto weights = FacePlace{place.u, place.v}.weights();

@@ -30,10 +30,6 @@ class SkinTree {
     [[nodiscard]] double find_square_distance(const Vector3& p) const {
       return ((p - centre).cwiseAbs() - half).cwiseMax(0.0).squaredNorm();
     }
-    /// Least of normal . x over the box.
-    [[nodiscard]] double find_lowest(const Vector3& normal) const {
-      return normal.dot(centre) - normal.cwiseAbs().dot(half);
-    }
   };
   struct Node {
     int first = 0;   ///< of its faces in order()
@@ -62,10 +58,6 @@ class SkinTree {
   [[nodiscard]] const Node& node(int i) const { return nodes_[index(i)]; }
   [[nodiscard]] std::span<const int> find_faces(const Node& node) const {
     return std::span(order_).subspan(index(node.first), index(node.count));
-  }
-  /// Box of node i of the undeformed surface.
-  [[nodiscard]] const Box& undeformed_box(int i) const {
-    return boxes_[index(i)];
   }
   /// Box of node i of the deformed surface.
   [[nodiscard]] Box find_box(int i, const ModalView& eta) const;

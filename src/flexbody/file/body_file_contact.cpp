@@ -10,34 +10,10 @@ namespace {
 
 constexpr std::size_t kFaceNodes = 6;
 
-void write_pads(Hdf5File& out, const std::string& at, const ContactPads& pads) {
-  if (pads.count() == 0) return;
-  out.write(at + "normal_B", MatrixX(pads.normal_B), "1", "outward normal");
-  out.write(at + "x_B", pads.x_B, "m",
-            "places where forces act, from the centre of mass, 3 x k");
-  out.write(at + "Phi_B", pads.Phi_B, "kg^-1/2",
-            "mode shapes, mean over each pad, 3k x m");
-  out.write(at + "flexibility", pads.flexibility, "m/N",
-            "normal flexibility between pads that the modes do not have");
-  out.write(at + "area", MatrixX(pads.area), "m^2", "areas of the pads");
-}
-
-ContactPads read_pads(const BodyFileReader& reader, const std::string& at,
-                      Eigen::Index columns) {
-  ContactPads pads;
-  if (!reader.in().has(at + "area")) return pads;
-  const Eigen::Index k = reader.in().read_matrix(at + "area").rows();
-  pads.normal_B = reader.matrix(at + "normal_B", 3, 1);
-  pads.x_B = reader.matrix(at + "x_B", 3, k);
-  pads.Phi_B = reader.matrix(at + "Phi_B", 3 * k, columns);
-  pads.flexibility = reader.matrix(at + "flexibility", k, k);
-  pads.area = reader.matrix(at + "area", k, 1);
-  return pads;
-}
-
-// Only of a flat surface.
+// Of flat surfaces.
 void write_parts(Hdf5File& out, const std::string& at,
                  const std::vector<ContactPart>& parts) {
+  if (parts.empty()) return;
   out.write(at + "count", std::vector<std::int64_t>{std::ssize(parts)}, "1",
             "convex parts that move as one piece");
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -67,15 +43,12 @@ void write_parts(Hdf5File& out, const std::string& at,
 std::vector<ContactPart> read_parts(const BodyFileReader& reader,
                                     const std::string& at,
                                     Eigen::Index columns) {
-  if (!reader.in().has(at + "count")) {
-    reader.fail(
-        "lacks the parts of a flat surface; an earlier version wrote it");
-  }
+  std::vector<ContactPart> parts;
+  if (!reader.in().has(at + "count")) return parts;
   const std::int64_t count = reader.integer(at + "count");
   if (count < 0 || count > std::int64_t{kMostParts}) {
     reader.fail(fmt::format("'{}count' is {}", at, count));
   }
-  std::vector<ContactPart> parts;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::string of_part = fmt::format("{}{}/", at, i + 1);
     const Eigen::Index k =
@@ -113,6 +86,8 @@ void write_slices(Hdf5File& out, const std::string& at,
               "displacement of the centre and rotation by modes, 6 x m");
     out.write(of_slice + "flexibility_B", MatrixX(slice.flexibility_B), "m/N",
               "flexibility that 'motion_B' does not have, 3 x 3");
+    out.write(of_slice + "own_B", MatrixX(slice.own_B), "m/N",
+              "share of it by which the modes deform the slice itself, 3 x 3");
   }
 }
 
@@ -136,6 +111,9 @@ std::vector<ContactSlice> read_slices(const BodyFileReader& reader,
     slice.centre_B = reader.matrix(of_slice + "centre_B", 3, 1);
     slice.motion_B = reader.matrix(of_slice + "motion_B", 6, columns);
     slice.flexibility_B = reader.matrix(of_slice + "flexibility_B", 3, 3);
+    if (reader.in().has(of_slice + "own_B")) {  // not of earlier versions
+      slice.own_B = reader.matrix(of_slice + "own_B", 3, 3);
+    }
     slices.push_back(std::move(slice));
   }
   return slices;
@@ -165,8 +143,7 @@ void write_surface(Hdf5File& out, const std::string& at,
   out.write(at + "faces", faces, "1",
             "triangles, six indices of nodes each: corners, outward, middles "
             "of edges 01, 12, 20 or -1");
-  write_pads(out, at + "pads/", surface.pads);
-  if (surface.pads.count() > 0) write_parts(out, at + "parts/", surface.parts);
+  write_parts(out, at + "parts/", surface.parts);
   write_slices(out, at + "slices/", surface.slices);
   out.write(
       at + "material",
@@ -221,10 +198,7 @@ ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
   surface.residual = reader.matrix(at + "residual", n, 1);
   surface.patch_radius = reader.matrix(at + "patch_radius", n, 1);
   surface.faces = read_faces(reader, at + "faces", surface.tags.size());
-  surface.pads = read_pads(reader, at + "pads/", columns);
-  if (surface.pads.count() > 0) {
-    surface.parts = read_parts(reader, at + "parts/", columns);
-  }
+  surface.parts = read_parts(reader, at + "parts/", columns);
   surface.slices = read_slices(reader, at + "slices/", columns);
   const MatrixX material = reader.matrix(at + "material", 2, 1);
   surface.youngs_modulus = material(0, 0);

@@ -22,7 +22,7 @@ namespace {
 // entries.
 constexpr int kReductionVersion = 7;
 // The same for contact surfaces, for bodies that have any.
-constexpr int kContactVersion = 4;
+constexpr int kContactVersion = 5;
 // The same for second-order kinematics.
 constexpr int kManifoldVersion = 3;
 // The same for the cuts of meshes.

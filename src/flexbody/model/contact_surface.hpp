@@ -10,25 +10,8 @@
 
 namespace limber::flexbody {
 
-/// A flat surface as pads, on each of which a force acts as uniform pressure.
-///
-/// Equation   u_i = n . Phi_B(i) eta + sum_j R_ij f_j,  f_j a force on pad j
-///            along -n; R = F^T K^+ F as of a patch, of all pads together
-/// Source     docs/theory/contact_surfaces.md
-/// Limits     Pressure does not vary within a pad. Its force acts at a node
-///            within it, so that a face carries as far as its rim.
-struct ContactPads {
-  Vector3 normal_B = Vector3::Zero();  ///< unit, outward [-]
-  Matrix3X x_B;         ///< 3 x k places, relative to the c.m. [m]
-  MatrixX Phi_B;        ///< 3k x m: mean of the modes over each pad [kg^-1/2]
-  MatrixX flexibility;  ///< k x k: R, positive semidefinite [m/N]
-  VectorX area;         ///< k [m^2]
-
-  [[nodiscard]] Eigen::Index count() const { return x_B.cols(); }
-};
-
 /// Largest number of parts of a surface.
-inline constexpr std::size_t kMostParts = 8;
+inline constexpr std::size_t kMostParts = 32;
 
 /// A convex part of a flat surface that moves as one piece.
 ///
@@ -70,6 +53,8 @@ struct ContactSlice {
   MatrixX motion_B;  ///< 6 x m [kg^-1/2, kg^-1/2 / m]
   /// R, of what motion_B lacks, positive semidefinite [m/N]
   Matrix3 flexibility_B = Matrix3::Zero();
+  /// The share of R by which the modes deform the slice itself [m/N]
+  Matrix3 own_B = Matrix3::Zero();
 };
 
 /// The part of a body's surface that may touch others: its nodes with the
@@ -100,8 +85,7 @@ struct ContactSurface {
   /// middle nodes of the edges 01, 12, 20; -1, -1, -1 of a straight face.
   /// Quadrilateral faces are split into triangles.
   std::vector<std::array<int, 6>> faces;
-  ContactPads pads;  ///< none (count() 0) of a surface that is not flat
-  std::vector<ContactPart> parts;  ///< none unless it is flat and convex
+  std::vector<ContactPart> parts;  ///< none unless it is flat
   /// None of a flat surface.
   std::vector<ContactSlice> slices;
   double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]

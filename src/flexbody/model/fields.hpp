@@ -46,11 +46,6 @@ constexpr auto fields_of(const QuadraticFrame*) {
                      "Psi2 [kg^-1 m^-2]");
 }
 
-constexpr auto fields_of(const ContactPads*) {
-  return list_fields("contact pads", "normal", "x_B [m]", "Phi_B [kg^-1/2]",
-                     "flexibility [m/N]", "area [m^2]");
-}
-
 constexpr auto fields_of(const ContactPart*) {
   return list_fields("contact part", "normal", "centre [m]", "corners [m]",
                      "rim", "motion [kg^-1/2]", "depth [m]", "residual [m/N]",
@@ -59,13 +54,14 @@ constexpr auto fields_of(const ContactPart*) {
 
 constexpr auto fields_of(const ContactSlice*) {
   return list_fields("contact slice", "normals", "heights [m]", "centre [m]",
-                     "motion [kg^-1/2]", "flexibility [m/N]");
+                     "motion [kg^-1/2]", "flexibility [m/N]",
+                     "own flexibility [m/N]");
 }
 
 constexpr auto fields_of(const ContactSurface*) {
   return list_fields("contact surface", "name", "tags", "x_B [m]",
                      "Phi_B [kg^-1/2]", "residual [m/N]", "patch radius [m]",
-                     "faces", "pads", "parts", "slices", "Young's modulus [Pa]",
+                     "faces", "parts", "slices", "Young's modulus [Pa]",
                      "Poisson's ratio [-]");
 }
 

@@ -16,14 +16,26 @@ struct NodalMeans {
   std::vector<double> weights;     ///< sum to one each [-]
 };
 
-/// A surface of a body at level `full`: its Phi_B has no columns, and each of
-/// its nodes moves as the mean of the mesh's nodes in its patch.
+/// A piece of a surface that moves as one, by the nodes of a mesh.
+///
+/// Equation   (u, theta) = motion d of small displacements d of the nodes: that
+///            of every small rigid motion about the centre
+struct NodalPiece {
+  std::vector<int> nodes;  ///< of the mesh
+  Matrix3X x_P;            ///< 3 x n undeformed, from the piece's centre [m]
+  MatrixX motion;          ///< 6 x 3n [-, 1/m]
+};
+
+/// A surface of a body at level `full`: its Phi_B and the motions of its parts
+/// or slices have no columns. Each of its nodes moves as the mean of the mesh's
+/// nodes in its patch, each part or slice as a NodalPiece.
 ///
 /// Equation   residual = -3 / (5 E' b): the mesh itself deforms locally, so
 ///            Hertz's share is subtracted
 struct FullContactSurface {
   ContactSurface surface;
   NodalMeans means;
+  std::vector<NodalPiece> pieces;  ///< of all parts, or of all slices
 };
 
 /// Additional interface of a FullBodySolver whose body may touch others.

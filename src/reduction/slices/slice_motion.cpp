@@ -10,7 +10,7 @@
 namespace limber::flexbody {
 namespace {
 
-using Matrix63 = Eigen::Matrix<double, 6, 3>;
+using Matrix63 = SliceMotion::Share;
 
 // Of the motion that moves the faces most; what facets of a round rod have of
 // its axis is less, the end face of a slender one more [-].

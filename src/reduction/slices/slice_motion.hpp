@@ -23,11 +23,16 @@ namespace limber::flexbody {
 ///            resultant is f at the centre
 class SliceMotion {
  public:
+  /// (u, theta) by a node's displacement.
+  using Share = Eigen::Matrix<double, 6, 3>;
+
   /// @param samples at least one
   explicit SliceMotion(const std::vector<const SurfaceSample*>& samples);
 
   /// Of its area, mesh frame [m].
   [[nodiscard]] const Vector3& centre() const { return centre_; }
+  /// Of each node of the mesh that it has.
+  [[nodiscard]] const std::map<int, Share>& nodes() const { return nodes_; }
   /// (u, theta) of each mode, 6 x m. @param Phi 3N x m rows of all nodes
   [[nodiscard]] MatrixX find_motion(const MatrixX& Phi) const;
   /// Loads of unit forces along each axis, 3N x 3. @param nodes N
@@ -35,7 +40,7 @@ class SliceMotion {
 
  private:
   Vector3 centre_ = Vector3::Zero();
-  std::map<int, Eigen::Matrix<double, 6, 3>> nodes_;  // of (u, theta)
+  std::map<int, Share> nodes_;
 };
 
 }  // namespace limber::flexbody

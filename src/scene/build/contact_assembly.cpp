@@ -11,7 +11,6 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
-#include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_sides.hpp"
 #include "limber/contact/patches/skin_parts.hpp"
@@ -64,16 +63,6 @@ bool has_surface(const flexbody::ReducedBody& body, const std::string& name) {
                      });
 }
 
-// Rigid except for the local deformation of its material near the surface.
-void make_rigid_pads(flexbody::ContactSurface& surface) {
-  flexbody::ContactPads& pads = surface.pads;
-  if (pads.count() == 0) return;
-  const double nu = surface.poisson_ratio;
-  pads.Phi_B.resize(pads.Phi_B.rows(), 0);
-  pads.flexibility = contact::calc_half_space_compliance(
-      pads.x_B, pads.area, surface.youngs_modulus / (1.0 - nu * nu));
-}
-
 void make_rigid_parts(std::vector<flexbody::ContactPart>& parts) {
   for (flexbody::ContactPart& part : parts) {
     part.motion_B.resize(6, 0);
@@ -103,10 +92,6 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
         surface.name));
   }
   surface.Phi_B.conservativeResize(Eigen::NoChange, columns);
-  MatrixX& of_pads = surface.pads.Phi_B;
-  if (of_pads.cols() > columns) {
-    of_pads.conservativeResize(Eigen::NoChange, columns);
-  }
   for (flexbody::ContactPart& part : surface.parts) {
     part.motion_B.conservativeResize(Eigen::NoChange, columns);
   }
@@ -124,11 +109,17 @@ contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
       Pose{}};
 }
 
-std::vector<contact::PlacedBody> find_bodies(const contact::Shape& shape) {
+const flexbody::ContactSurface* find_surface(const contact::Shape& shape) {
   const auto* skin =
       std::get_if<std::shared_ptr<const contact::Skin>>(&shape.kind);
-  if (skin == nullptr) return {};
-  const flexbody::ContactSurface& surface = (*skin)->surface();
+  return skin == nullptr ? nullptr : &(*skin)->surface();
+}
+
+// None of a shape that is no mesh, or a mesh that has too many parts.
+std::vector<contact::PlacedBody> find_bodies(const contact::Shape& shape) {
+  const flexbody::ContactSurface* found = find_surface(shape);
+  if (found == nullptr) return {};
+  const flexbody::ContactSurface& surface = *found;
   std::vector<contact::PlacedBody> bodies;
   for (auto& solid : contact::split_mesh(surface.x_B, surface.faces)) {
     bodies.push_back({std::move(solid), Pose{}});
@@ -147,8 +138,8 @@ std::optional<std::string> describe_error(
       surface.x_B.rowwise().maxCoeff() - surface.x_B.rowwise().minCoeff();
   if (error <= kClose * extent.norm()) return {};
   return fmt::format(
-      "contact of '{}', surface '{}': the convex shapes that stand for its "
-      "slices are up to {:.2g} m from it; contacts begin where these touch",
+      "contact of '{}', surface '{}': the convex shapes that stand for it are "
+      "up to {:.2g} m from it; contacts begin where these touch",
       name, surface.name, error);
 }
 
@@ -269,7 +260,6 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   if (is_rigid) {
     copy.Phi_B.resize(copy.Phi_B.rows(), 0);
     copy.residual.setZero();
-    make_rigid_pads(copy);
     make_rigid_parts(copy.parts);
     make_rigid_slices(copy.slices);
   }
@@ -285,6 +275,21 @@ void ContactAssembly::warn(const Side& side) {
   if (!is_known) warnings_.push_back(*side.warning);
 }
 
+// A rigid mesh as hulls; any other side as it is.
+ContactAssembly::Side ContactAssembly::cover(const Side& side) {
+  const flexbody::ContactSurface* mesh = find_surface(side.side.shape);
+  if (mesh == nullptr || !mesh->slices.empty() || !mesh->parts.empty()) {
+    return side;
+  }
+  const auto [found, is_new] = covers_.try_emplace(mesh);
+  contact::SkinParts& hulls = found->second;
+  if (is_new) hulls = contact::cover_mesh(*mesh);
+  Side covered = side;
+  covered.side.bodies = hulls.bodies;
+  covered.warning = describe_error(side.name, *mesh, hulls.error);
+  return covered;
+}
+
 void ContactAssembly::add_pair(std::size_t touching, const Side& A,
                                const Side& B, std::vector<PlacedPair>& placed) {
   const ContactOptions& options =
@@ -293,17 +298,18 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
   PlacedPair pair{
       .name = A.name + "/" + B.name,
       .most_overlap = find_most_overlap(A.side, B.side, options.radius),
-      .radius = options.radius,
       .touching = touching};
-  if (!contact::suits(A.side, B.side)) {
-    pair.points.emplace(A.side.shape, B.side.shape);
-  } else {
-    warn(A);
-    warn(B);
+  const bool suits = contact::suits(A.side, B.side);
+  const Side of_A = suits ? A : cover(A);
+  const Side of_B = suits ? B : cover(B);
+  // A ball touches the surface itself.
+  if (!contact::has_ball_on_skin(of_A.side, of_B.side)) {
+    warn(of_A);
+    warn(of_B);
   }
-  pair.pair =
-      builder_.add_pair(pair.name, A.body, B.body,
-                        contact::make_contact(A.side, B.side, parameters));
+  pair.pair = builder_.add_pair(
+      pair.name, A.body, B.body,
+      contact::make_contact(of_A.side, of_B.side, parameters));
   placed.push_back(std::move(pair));
 }
 

@@ -9,7 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/patches/skin_parts.hpp"
+#include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/scene/build/attachment_sites.hpp"
 #include "limber/scene/build/body_plan.hpp"
@@ -46,6 +47,7 @@ class ContactAssembly {
   [[nodiscard]] Sides make_flexible(int link);
   std::shared_ptr<const contact::Skin> get_skin(const BodyPlan& plan,
                                                 const std::string& surface);
+  [[nodiscard]] Side cover(const Side& side);
   void warn(const Side& side);
   void add_pair(std::size_t touching, const Side& A, const Side& B,
                 std::vector<PlacedPair>& placed);
@@ -59,6 +61,7 @@ class ContactAssembly {
   std::map<std::tuple<const void*, std::string, dynamics::Fidelity>,
            std::shared_ptr<const contact::Skin>>
       skins_;
+  std::map<const flexbody::ContactSurface*, contact::SkinParts> covers_;
 };
 
 }  // namespace limber::scene

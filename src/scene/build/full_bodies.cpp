@@ -42,7 +42,7 @@ void add_full_bodies(const Scene& scene, const FullMaker& make_full,
         make_recipe(scene.robot, index, scene.scenario);
     const std::string& key = plan.reduced->content_key;
     FullPointer& body = known[key];
-    if (!body) body = make_full(recipe, scene.scenario.full, key);
+    if (!body) body = make_full(recipe, scene.scenario.full, *plan.reduced);
     plan.full = body;
   }
 }

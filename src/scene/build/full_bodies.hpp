@@ -3,20 +3,20 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 
 #include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/scene/build/body_plan.hpp"
 #include "limber/scene/build/scene.hpp"
 
 namespace limber::scene {
 
 /// Makes a body without reduction; usually flexbody::make_full_body.
-/// @param key content key of the matching reduced body
+/// @param reduced the matching reduced body
 using FullMaker = std::function<std::shared_ptr<const flexbody::FullBody>(
     const flexbody::Recipe&, const flexbody::FullOptions&,
-    const std::string& key)>;
+    const flexbody::ReducedBody& reduced)>;
 
 /// Adds whole meshes to the plans of links at level `full`; links with equal
 /// recipes share one.

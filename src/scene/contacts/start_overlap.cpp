@@ -7,7 +7,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/contact/meetings.hpp"
 #include "limber/contact/patches/patch_moduli.hpp"
 #include "limber/contact/shapes/shape_measures.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
@@ -25,48 +24,21 @@ constexpr double kMostFlatShare = 0.01;
 constexpr double kRounding = 1e-8;
 constexpr std::size_t kMostTold = 10;
 
-struct Overlap {
-  double depth = 0.0;  // [m]
-  Vector3 p_W = Vector3::Zero();
-  double most = 0.0;  // [m]
-};
-
-// The deepest one of two shapes that touch at points.
-Overlap find_overlap(const PlacedPair& pair, const contact::ShapePair& points,
-                     const joints::PairBodies& bodies) {
-  contact::Meetings meetings(points.most_points());
-  points.find(bodies, 0.0, meetings.all());
-  const contact::Meeting& deepest = meetings[meetings.find_deepest()];
-  const contact::Meeting enclosed = points.find_enclosed(bodies);
-  double most = pair.most_overlap;
-  if (!pair.radius && deepest.curvature > 0.0) {
-    most = kMostShare / deepest.curvature;
-  }
-  // Corners of a shallow overlap are found as well, less exactly.
-  if (enclosed.depth > (deepest.depth > 0.0 ? most : 0.0)) {
-    return {enclosed.depth, enclosed.p_W, most};
-  }
-  return {deepest.depth, deepest.p_W, most};
-}
-
-Overlap find_overlap(const PlacedPair& placed,
-                     const dynamics::SystemModel& model,
-                     const joints::PairBodies& bodies) {
-  if (placed.points) return find_overlap(placed, *placed.points, bodies);
+joints::PairTouch find_touch(const PlacedPair& placed,
+                             const dynamics::SystemModel& model,
+                             const joints::PairBodies& bodies) {
   const dynamics::Pair& pair = model.pairs[index(placed.pair)];
   joints::PairResponse scratch = dynamics::make_response(model, pair);
-  const joints::PairTouch touch =
-      pair.law->touching()->find_touch(bodies, scratch);
-  return {touch.depth, touch.p_W, placed.most_overlap};
+  return pair.law->touching()->find_touch(bodies, scratch);
 }
 
-std::string refuse(const PlacedPair& pair, const Overlap& overlap) {
+std::string refuse(const PlacedPair& pair, const joints::PairTouch& overlap) {
   const Vector3& p = overlap.p_W;
   return fmt::format(
       "contact '{}': both overlap by {:.3g} m at the start, at ({:.4g}, "
       "{:.4g}, {:.4g}) m in the world; up to {:.2g} m is taken as touching "
       "there: move them apart, or leave this pair out",
-      pair.name, overlap.depth, p.x(), p.y(), p.z(), overlap.most);
+      pair.name, overlap.depth, p.x(), p.y(), p.z(), pair.most_overlap);
 }
 
 std::string tell(const PlacedPair& placed, double depth,
@@ -106,9 +78,9 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
   for (const PlacedPair& pair : pairs) {
     const dynamics::PairMotion motion =
         dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
-    const Overlap overlap = find_overlap(pair, model, motion.bodies());
-    if (!(overlap.depth > kRounding * overlap.most)) continue;
-    if (overlap.depth <= overlap.most) {
+    const joints::PairTouch overlap = find_touch(pair, model, motion.bodies());
+    if (!(overlap.depth > kRounding * pair.most_overlap)) continue;
+    if (overlap.depth <= pair.most_overlap) {
       notices.push_back(tell(pair, overlap.depth, model, motion.bodies()));
     } else if (++count <= kMostTold) {
       problems.push_back(refuse(pair, overlap));

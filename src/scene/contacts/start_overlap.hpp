@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/patches/contact_side.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -16,14 +15,9 @@ namespace limber::scene {
 /// Two shapes on the bodies of a pair of a system.
 struct PlacedPair {
   std::string name;
-  /// Largest overlap at the start; 3 % of R_e at a place with a curvature where
-  /// both touch at points [m].
-  double most_overlap = 0.0;
-  std::optional<double> radius;  ///< R_e in place of that of the shapes [m]
-  std::size_t touching = 0;      ///< index of the bodies into Scene::touching
+  double most_overlap = 0.0;  ///< largest at the start [m]
+  std::size_t touching = 0;   ///< index of the bodies into Scene::touching
   dynamics::PairIndex pair = {};
-  /// Of shapes that touch at points.
-  std::optional<contact::ShapePair> points = {};
 };
 
 /// 3 % of R_e with a ball, else 1 % of the smaller shape's size

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "limber/contact/contact_pair.hpp"
 #include "limber/contact/make_contact.hpp"
+#include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -98,7 +98,7 @@ class CountingPair final : public joints::PairInteraction,
   }
 
  private:
-  ContactPair pair_;
+  PatchPair pair_;
 };
 
 ContactSide make_ball(double radius, double mass,
@@ -228,33 +228,6 @@ TEST(FarPairs, TouchOnTimeWhereOneTurns) {
           << rate << " rad/s, steps of " << step;
     }
   }
-}
-
-// Two bowls, both seen from above: the lower goes up through the other from
-// behind, where neither has a side that faces the other.
-TEST(FarPairs, ThatCrossFromBehindAreLookedAtAFewTimesAStep) {
-  const auto make_bowl = [](double mass) {
-    const auto height = [](double x, double y) {
-      return 2.0 * (x * x + y * y);
-    };
-    return ContactSide{
-        Shape{std::make_shared<const Skin>(
-                  test::make_sheet_surface(0.1, 4, true, height)),
-              {}},
-        kSteel, mass};
-  };
-  dynamics::SystemBuilder builder;
-  const BodyIndex bowl = add_body(builder, "bowl");
-  const auto law =
-      std::make_shared<CountingPair>(make_bowl(kFixed), make_bowl(1.0));
-  builder.add_pair("world/bowl", kWorld, bowl, law);
-  const dynamics::SystemModel model = builder.build();
-  dynamics::SystemState state = dynamics::make_state(model);
-  state.bodies[0].p_WB = {0.01, 0.0, -0.05};
-  state.bodies[0].v_WB_W = {0.0, 0.0, 1.0};
-  find_touch_time(model, state, 0.1, 1e-4);
-  EXPECT_NEAR(state.bodies[0].p_WB.z(), 0.05, 1e-12);
-  EXPECT_LT(law->looks, 25 * 1000);
 }
 
 std::shared_ptr<const flexbody::ReducedBody> make_breathing_body(

@@ -68,7 +68,7 @@ inline flexbody::ContactPart make_end_part(int modes) {
   return part;
 }
 
-/// The end that strikes: a square at x = -L / 2, of four pads and one part.
+/// The end that strikes: a square at x = -L / 2, of one part.
 inline flexbody::ContactSurface make_end(int modes) {
   flexbody::ContactSurface end;
   end.name = "end";
@@ -85,12 +85,6 @@ inline flexbody::ContactSurface make_end(int modes) {
   end.residual = VectorX::Constant(4, find_residual(modes));
   end.patch_radius = VectorX::Constant(4, kSide);
   end.faces = {{0, 2, 1, -1, -1, -1}, {1, 2, 3, -1, -1, -1}};
-  end.pads.normal_B = -Vector3::UnitX();
-  end.pads.x_B = end.x_B;
-  end.pads.Phi_B = end.Phi_B;
-  end.pads.area = VectorX::Constant(4, 0.25 * kArea);
-  // A rod's section stays plane: what presses one corner moves all.
-  end.pads.flexibility = MatrixX::Constant(4, 4, find_residual(modes));
   end.parts = {make_end_part(modes)};
   end.youngs_modulus = kModulus;
   end.poisson_ratio = 0.0;

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -84,11 +84,11 @@ Outcome strike(bool is_full) {
   }
   const auto ball = builder.add_rigid_body(
       "ball", {kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()});
-  builder.add_pair("lattice/ball", dynamics::BodyIndex(0), ball,
-                   std::make_shared<ContactPair>(
-                       ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
-                       ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
-                       ContactParameters{.friction = {.sliding = 0.3}}));
+  builder.add_pair(
+      "lattice/ball", dynamics::BodyIndex(0), ball,
+      make_contact(ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
+                   ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
+                   ContactParameters{.friction = {.sliding = 0.3}}));
   const dynamics::SystemModel model = builder.build();
   dynamics::SystemState state = make_state(model);
   state.bodies[1].p_WB = middle + Vector3(0.01, 0.005, kRadius + 1e-6);

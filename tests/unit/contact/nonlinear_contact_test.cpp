@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/make_contact.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -78,11 +78,11 @@ Impact make_impact(Fidelity level, double bend, double amplitude) {
   const auto ball = builder.add_rigid_body(
       "ball", {kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()});
   const auto skin = make_skin(bend, level == Fidelity::nonlinear);
-  builder.add_pair("body/ball", body, ball,
-                   std::make_shared<ContactPair>(
-                       ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
-                       ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
-                       ContactParameters{}));
+  builder.add_pair(
+      "body/ball", body, ball,
+      make_contact(ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
+                   ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
+                   ContactParameters{}));
   Impact impact{builder.build(), {}};
   impact.state = make_state(impact.model);
   impact.state.eta.setConstant(amplitude);

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <variant>
 #include <vector>
 
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
+#include "unit/contact/meshes.hpp"
 
 /// Whole skins of flexible bodies: their solids, and their potential against
 /// that of the same shapes when rigid.
@@ -237,6 +240,46 @@ TEST(SkinParts, TouchAloneWhereTheyAre) {
   EXPECT_NEAR(far.energy / expected.energy, 1.0, 1e-6);
   EXPECT_LT((R.transpose() * far.force - expected.force).norm(),
             1e-6 * expected.force.norm());
+}
+
+double find_volume(const SkinParts& parts) {
+  double volume = 0.0;
+  for (const PlacedBody& body : parts.bodies) {
+    volume += std::get<ConvexSolid>(body.kind).find_volume();
+  }
+  return volume;
+}
+
+// It has too many planes for a cylinder beside it, hulls have up to 108 each.
+TEST(MeshCover, OfAGlobeIsTheGlobe) {
+  constexpr double kRadius = 0.1;
+  const TestMesh globe = make_globe(40, kRadius);
+  const ContactSide side = globe.make_side(kModulus, 1.0, Matrix3::Identity());
+  const SkinParts cover = cover_mesh(
+      std::get<std::shared_ptr<const Skin>>(side.shape.kind)->surface());
+  EXPECT_LE(cover.bodies.size(), kMostSkinParts);
+  EXPECT_LT(cover.error, 5e-3 * kRadius);
+  double facets = 0.0;
+  for (const auto& face : globe.faces) {
+    const auto& corners = globe.corners;
+    facets += corners[index(face[0])].dot(
+                  corners[index(face[1])].cross(corners[index(face[2])])) /
+              6.0;
+  }
+  EXPECT_GE(find_volume(cover), facets);
+  EXPECT_NEAR(find_volume(cover) / facets, 1.0, 5e-3);
+  for (const PlacedBody& body : cover.bodies) {
+    EXPECT_TRUE(PairPotential::suits(body.kind, make_body(Cylinder{0.1, 0.1})));
+  }
+}
+
+TEST(MeshCover, OfABoxIsTheBox) {
+  const flexbody::ContactSurface bar =
+      make_skin({{0, 0}, {1, 0}, {2, 0}}, 0.02, 0.01);
+  const SkinParts cover = cover_mesh(bar);
+  ASSERT_EQ(cover.bodies.size(), 1U);
+  EXPECT_LT(cover.error, 1e-12);
+  EXPECT_NEAR(find_volume(cover), 0.06 * 0.02 * 0.01, 1e-15);
 }
 
 }  // namespace

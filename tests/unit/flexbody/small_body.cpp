@@ -159,14 +159,17 @@ void add_contact_surfaces(const ReducedBody& body, FieldList& fields) {
     fields.add("contact Phi_B", surface.Phi_B);
     fields.add("contact residual", MatrixX(surface.residual));
     fields.add("contact patch_radius", MatrixX(surface.patch_radius));
-    fields.add("pads normal_B", MatrixX(surface.pads.normal_B));
-    fields.add("pads x_B", MatrixX(surface.pads.x_B));
-    fields.add("pads Phi_B", surface.pads.Phi_B);
-    fields.add("pads flexibility", surface.pads.flexibility);
-    fields.add("pads area", MatrixX(surface.pads.area));
     fields.add("contact faces", surface.faces.size());
     for (const auto& face : surface.faces) {
       fields.add("contact face", to_sizes({face.begin(), face.end()}));
+    }
+    for (const ContactSlice& slice : surface.slices) {
+      fields.add("slice normals_B", MatrixX(slice.normals_B));
+      fields.add("slice heights", MatrixX(slice.heights));
+      fields.add("slice centre_B", MatrixX(slice.centre_B));
+      fields.add("slice motion_B", slice.motion_B);
+      fields.add("slice flexibility_B", MatrixX(slice.flexibility_B));
+      fields.add("slice own_B", MatrixX(slice.own_B));
     }
     fields.add("contact youngs_modulus", surface.youngs_modulus);
     fields.add("contact poisson_ratio", surface.poisson_ratio);
@@ -249,12 +252,12 @@ ReducedBody make_small_body(unsigned seed) {
         make_surface("skin", 6, {{{0, 1, 2, 3, 4, 5}, {2, 1, 0, 4, 3, 5}}},
                      numbers),
         make_surface("tip", 3, {{{0, 1, 2, -1, -1, -1}}}, numbers)};
-    ContactPads& pads = body.contact_surfaces[1].pads;
-    pads.normal_B = numbers.matrix(3, 1);
-    pads.x_B = numbers.matrix(3, 2);
-    pads.Phi_B = numbers.matrix(6, m);
-    pads.flexibility = numbers.matrix(2, 2);
-    pads.area = numbers.matrix(2, 1);
+    body.contact_surfaces[1].slices = {{.normals_B = numbers.matrix(3, 2),
+                                        .heights = numbers.matrix(2, 1),
+                                        .centre_B = numbers.matrix(3, 1),
+                                        .motion_B = numbers.matrix(6, m),
+                                        .flexibility_B = numbers.matrix(3, 3),
+                                        .own_B = numbers.matrix(3, 3)}};
   }
   return body;
 }

@@ -5,6 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <utility>
 
 #include "limber/common/rotation.hpp"
 #include "limber/reduction/contact_groups.hpp"
@@ -145,6 +150,50 @@ TEST(ContactParts, MoveExactlyWithARigidBody) {
   Matrix6 expected = Matrix6::Identity();
   expected.topRightCorner<3, 3>() = -skew(parts[0].centre_B - about);
   EXPECT_LT((parts[0].motion_B - expected).norm(), 1e-10);
+}
+
+// A plate with a corner cut out, or with a round hole, and its face.
+Recipe make_plate(const std::string& cut_out) {
+  const std::filesystem::path file = limber::test::own_folder() / "plate.geo";
+  std::ofstream(file)
+      << "SetFactory(\"OpenCASCADE\");\n"
+         "Box(1) = {0, 0, 0, 0.04, 0.04, 0.005};\n"
+      << cut_out
+      << "BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };"
+         "\nMeshSize{:} = 0.005;\n"
+         "top[] = Surface In BoundingBox {-1, -1, 0.0049, 1, 1, 0.0051};\n"
+         "Physical Surface(\"top\") = {top[]};\n"
+         "Physical Volume(\"plate\") = {3};\n";
+  Recipe recipe;
+  recipe.name = "plate";
+  recipe.mesh.file = file;
+  recipe.mesh.order = 2;
+  recipe.materials = {{"", {70e9, 0.3, 2700.0}}};
+  recipe.contact_groups = {"top"};
+  recipe.basis.eigenmodes = 2;
+  recipe.basis.interface_modes = false;
+  return recipe;
+}
+
+// Each is convex, and all fill no more than 2 % beyond the face.
+TEST(ContactParts, OfAFaceThatIsNotConvexFillIt) {
+  const double square = 0.04 * 0.04;
+  const double hole = std::numbers::pi * 0.01 * 0.01;
+  for (const auto& [cut_out, area] :
+       {std::pair{"Box(2) = {0.015, 0.025, -1, 1, 1, 2};\n",
+                  square - 0.025 * 0.015},
+        std::pair{"Cylinder(2) = {0.02, 0.02, -1, 0, 0, 2, 0.01};\n",
+                  square - hole}}) {
+    const ReducedBody body = reduce(make_plate(cut_out));
+    const ContactSurface& top = body.contact_surfaces.at(0);
+    EXPECT_TRUE(top.slices.empty());
+    ASSERT_GE(top.parts.size(), 2U) << cut_out;
+    EXPECT_LE(top.parts.size(), kMostParts);
+    double sum = 0.0;
+    for (const ContactPart& part : top.parts) sum += find_area(part);
+    EXPECT_GT(sum, 0.995 * area) << cut_out;
+    EXPECT_LT(sum, 1.02 * area) << cut_out;
+  }
 }
 
 }  // namespace

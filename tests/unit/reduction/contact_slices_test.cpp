@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "limber/common/rotation.hpp"
+#include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
+#include "limber/reduction/full_body_maker.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
@@ -160,6 +162,42 @@ TEST(ContactSlices, CarryForcesWithoutMoments) {
     EXPECT_LT(moment.norm(), 1e-9);
     if (k == 0) {
       EXPECT_NEAR(on_end, 1.0, 1e-3);
+    }
+  }
+}
+
+// At level full the nodes move parts and slices as the modes' rows do.
+TEST(ContactSlices, OfAWholeMeshMoveAsThoseOfTheModes) {
+  Recipe recipe = make_recipe(kFinger);
+  recipe.contact_groups = {"skin", "top"};
+  recipe.basis.eigenmodes = 6;
+  recipe.basis.interface_modes = false;
+  const ReducedBody reduced = reduce(recipe);
+  const auto surfaces =
+      find_contact_surfaces(*make_full_body(recipe, {}, {}, &reduced));
+  ASSERT_EQ(surfaces.size(), 2U);
+  srand(5);
+  const MeshedBody body(recipe, {});
+  for (const FullContactSurface& full : surfaces) {
+    const std::size_t count =
+        full.surface.parts.size() + full.surface.slices.size();
+    ASSERT_EQ(full.pieces.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const NodalPiece& piece = full.pieces[i];
+      const Vector3 centre = full.surface.parts.empty()
+                                 ? full.surface.slices[i].centre_B
+                                 : full.surface.parts[i].centre_B;
+      const Vector3 turn = Vector3::Random();
+      Vector6 moved = Vector6::Zero();
+      for (std::size_t k = 0; k < piece.nodes.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        const Vector3 x = Vector3(body.mesh.x.col(piece.nodes[k])) -
+                          Vector3(0.1, 0.01, 0.004);  // of mass
+        EXPECT_LT((Vector3(piece.x_P.col(at)) - (x - centre)).norm(), 1e-6);
+        moved += piece.motion.middleCols<3>(3 * at) * turn.cross(x - centre);
+      }
+      EXPECT_LT(moved.head<3>().norm(), 1e-6);
+      EXPECT_LT((Vector3(moved.tail<3>()) - turn).norm(), 1e-4);
     }
   }
 }

@@ -156,70 +156,6 @@ TEST(HertzLaw, WhereTheResidualGrowsTheEnergyFallsByHalfTheForceSquared) {
   EXPECT_NEAR(slope / (-0.5 * force * force), 1.0, 1e-10);
 }
 
-TEST(HertzLaw, OverAStepForceTimesWayIsTheEnergysChangeToRoundoff) {
-  std::mt19937_64 generator(11);
-  std::uniform_real_distribution<double> exponent(-15.0, 0.0);
-  std::uniform_real_distribution<double> nearby(-1.0, 1.0);
-  double worst = 0.0;
-  for (const HertzLaw& law : make_laws()) {
-    for (int i = 0; i < 60; ++i) {
-      const double d0 = std::pow(10.0, exponent(generator));
-      const double closeness = std::pow(10.0, exponent(generator));
-      double d1 = d0 * (1.0 + closeness * nearby(generator));
-      if (i % 3 == 1) d1 = std::pow(10.0, exponent(generator));
-      if (i % 3 == 2) d1 = -std::pow(10.0, exponent(generator));
-      for (const auto& [a, b] : {std::pair{d0, d1}, std::pair{d1, d0}}) {
-        const double V0 = law.evaluate(a).energy();
-        const double V1 = law.evaluate(b).energy();
-        const double work = law.evaluate_over_step(a, b).force * (b - a);
-        worst = std::max(worst, std::abs(work - (V1 - V0)) / (V0 + V1));
-      }
-    }
-  }
-  EXPECT_LE(worst, 16.0 * kEps);
-}
-
-// A difference of energies over 1e-12 of the depth would have 4 digits.
-TEST(HertzLaw, OverAShortStepItIsTheForceOfTheMiddle) {
-  for (const HertzLaw& law : make_laws()) {
-    for (const double depth : {1e-12, 1e-6, 1.0}) {
-      for (const double step : {0.0, 1e-12, 1e-8, -1e-8}) {
-        const auto r = law.evaluate_over_step(depth, depth * (1.0 + step));
-        const auto middle = law.evaluate(depth * (1.0 + 0.5 * step));
-        EXPECT_NEAR(r.force / middle.force, 1.0, 16.0 * kEps);
-        EXPECT_NEAR(r.stiffness / middle.stiffness, 0.5,
-                    std::abs(step) + 64.0 * kEps);
-      }
-    }
-  }
-}
-
-TEST(HertzLaw, OverAStepTheStiffnessIsTheForcesDerivative) {
-  const double d0 = 2e-6;
-  testing::Margin margin;
-  for (const HertzLaw& law : make_laws()) {
-    for (const double share : {-1.0, 0.1, 0.45, 0.55, 1.0, 1.9, 2.2, 30.0}) {
-      for (const double begin : {d0, -0.3 * d0}) {
-        const double d1 = share * d0;
-        const auto r = law.evaluate_over_step(begin, d1);
-        const double slope =
-            testing::differentiate(
-                [&](double x) {
-                  return law.evaluate_over_step(begin, d1 * (1.0 + x)).force;
-                },
-                1e-3) /
-            d1;
-        if (r.force == 0.0) {
-          EXPECT_EQ(slope, 0.0);
-          continue;
-        }
-        margin.add(std::abs(slope - r.stiffness) * d0 / r.force, 1.0);
-      }
-    }
-  }
-  margin.expect_below(1e-10);
-}
-
 TEST(HertzLaw, AnEnergyGivesTheStateThatStoresIt) {
   double worst = 0.0;
   for (const HertzLaw& law : make_laws()) {
@@ -243,8 +179,6 @@ TEST(HertzLaw, NaNGoesThrough) {
   const HertzLaw law({.stiffness = 1e9, .residual = 1e-9});
   EXPECT_TRUE(std::isnan(law.evaluate(kNaN).force));
   EXPECT_TRUE(std::isnan(law.evaluate(kNaN).energy()));
-  EXPECT_TRUE(std::isnan(law.evaluate_over_step(kNaN, 1.0).force));
-  EXPECT_TRUE(std::isnan(law.evaluate_over_step(-1.0, kNaN).force));
 }
 
 void expect_refused(const HertzLaw::Parameters& p, const std::string& text) {

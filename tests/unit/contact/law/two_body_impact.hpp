@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "limber/contact/law/contact_damping.hpp"
 #include "limber/contact/law/hertz_law.hpp"
 
 namespace limber::contact::test {
@@ -82,17 +81,25 @@ class TwoBodyImpact {
     State error;
   };
 
-  [[nodiscard]] DampedForce find_force(const State& x) const {
+  struct Damped {
+    double force = 0.0;
+    double dissipation = 0.0;
+  };
+
+  // f max(0, 1 + s d'), s = beta / sqrt(d'^2 + 2 W / m).
+  [[nodiscard]] Damped find_force(const State& x) const {
     const HertzLaw::Response r = law_.evaluate(x[0]);
-    const ElasticForce elastic{r.force, r.stiffness, r.force};
     const double rate = x[1] - x[2];
-    TouchMotion touch{.inverse_mass = 1.0 / mass_A_ + 1.0 / mass_B_};
-    touch.add(elastic, rate, r.energy());
-    return damp(elastic, rate, find_damping(factor_, touch));
+    const double inverse_mass = 1.0 / mass_A_ + 1.0 / mass_B_;
+    const double speed =
+        std::sqrt(rate * rate + 2.0 * r.energy() * inverse_mass);
+    const double s = speed > 0.0 ? factor_ / speed : 0.0;
+    const double force = r.force * std::max(0.0, 1.0 + s * rate);
+    return {force, (force - r.force) * rate};
   }
 
   [[nodiscard]] State find_rate(const State& x) const {
-    const DampedForce f = find_force(x);
+    const Damped f = find_force(x);
     return {x[1] - x[2], -f.force / mass_A_, f.force / mass_B_, f.dissipation};
   }
 

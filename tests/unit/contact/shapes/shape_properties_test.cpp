@@ -53,31 +53,6 @@ TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
                  "skin has a pose of its own");
 }
 
-TEST(ShapeProperties, RigidShapesHaveNoModesAndNoResidual) {
-  const Shape box{Box{{1, 1, 1}}, {}};
-  Matrix3X Phi = Matrix3X::Ones(3, 5);
-  set_shape_functions(box, {}, Phi);
-  EXPECT_TRUE(Phi.isZero(0.0));
-  EXPECT_EQ(count_modes(box), 0);
-  EXPECT_EQ(find_residual(box, {}), 0.0);
-}
-
-TEST(ShapeProperties, OfASkinAreThoseOfItsPlaces) {
-  const auto skin = make_skin();
-  const Shape shape{skin, {}};
-  const SurfacePlace place{.face = 4, .u = 0.2, .v = 0.7};
-  Matrix3X Phi(3, 4);
-  Matrix3X expected(3, 4);
-  set_shape_functions(shape, place, Phi);
-  skin->set_shape_functions(place, expected);
-  EXPECT_EQ(Phi, expected);
-  EXPECT_GT(Phi.norm(), 0.0);
-  EXPECT_EQ(count_modes(shape), 4);
-  EXPECT_DOUBLE_EQ(find_residual(shape, place), 2e-9);
-  Matrix3X wrong(3, 3);
-  EXPECT_THROW(set_shape_functions(shape, place, wrong), ContractError);
-}
-
 TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {
   const joints::PairBody body;
   const auto away = [](const ShapeKind& kind) {

@@ -85,7 +85,7 @@ TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
       const Vector3 box =
           half.cwiseProduct(Vector3(1.0 + eta[0], 1.0, 1.0 + eta[1]));
       const Vector3 p = test::draw_point(random, 0.8);
-      const NearestPoint expected = test::find_nearest_of_box(box, p);
+      const Skin::NearestPoint expected = test::find_nearest_of_box(box, p);
       const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
       ASSERT_TRUE(hit.has_value());
       EXPECT_NEAR(hit->nearest.distance, expected.distance, 1e-13);

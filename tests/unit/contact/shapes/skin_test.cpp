@@ -52,23 +52,6 @@ TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
   }
 }
 
-TEST(Skin, OfABoxIsAsThickBehindAFaceAsTheBox) {
-  const Vector3 half_size(0.3, 0.5, 0.8);
-  for (const int cells : {1, 2, 3}) {
-    const auto surface = test::make_box_surface(half_size, cells, false);
-    const Skin skin(surface);
-    for (std::size_t f = 0; f < skin.face_count(); ++f) {
-      const auto& nodes = surface.faces[f];
-      const Vector3 a = surface.x_B.col(nodes[0]);
-      const Vector3 normal = (surface.x_B.col(nodes[1]) - a)
-                                 .cross(surface.x_B.col(nodes[2]) - a)
-                                 .normalized();
-      EXPECT_NEAR(skin.measures(static_cast<int>(f)).thickness,
-                  2.0 * std::abs(normal.dot(half_size)), 1e-14);
-    }
-  }
-}
-
 TEST(Skin, ResidualIsLinearBetweenCorners) {
   auto surface = test::make_ball_surface(1.0, 0, true);
   surface.residual.setConstant(100.0);  // of middle nodes, which do not count
@@ -101,35 +84,6 @@ TEST(Skin, ExtentHoldsEveryPointHoweverItDeforms) {
     EXPECT_LE(largest, skin.find_extent(view(eta)));
     EXPECT_LT(skin.find_extent(view(eta)), 4.0 * largest);
   }
-}
-
-TEST(Skin, NodesBelowAPlaneAreThoseOfAllThatAre) {
-  const auto surface = make_flexible_ball();
-  const Skin skin(surface);
-  const VectorX eta = make_eta();
-  const MatrixX x =
-      surface.x_B + (surface.Phi_B * eta).reshaped(3, surface.x_B.cols());
-  const Skin::Plane plane{Vector3(1, 2, -2) / 3.0, -0.5};
-  constexpr double kReach = 0.1;
-  std::vector<int> counts(skin.node_count(), 0);
-  skin.visit_nodes_below(
-      plane, view(eta), kReach, [&](const Skin::NodeHit& hit) {
-        ++counts[hit.node];
-        const auto column = static_cast<Eigen::Index>(hit.node);
-        EXPECT_LT((hit.x - x.col(column)).norm(), 1e-14);
-        EXPECT_EQ(hit.place.x_B, surface.x_B.col(column));
-        EXPECT_LT((skin.find_position(hit.place, view(eta)) - hit.x).norm(),
-                  1e-14);
-        EXPECT_NEAR(hit.height, plane.normal.dot(hit.x) + 0.5, 1e-14);
-        EXPECT_GT(hit.curvature, 0.0);
-      });
-  const VectorX heights = (plane.normal.transpose() * x).array() + 0.5;
-  for (std::size_t n = 0; n < counts.size(); ++n) {
-    const bool is_below = heights[static_cast<Eigen::Index>(n)] <= kReach;
-    EXPECT_EQ(counts[n], is_below ? 1 : 0) << n;
-  }
-  EXPECT_NEAR(skin.find_lowest_height(plane, view(eta)), heights.minCoeff(),
-              1e-14);
 }
 
 void expect_refused(const flexbody::ContactSurface& surface,

@@ -212,8 +212,8 @@ TEST_F(BodyFile, WithAContactSurfaceThatDoesNotFitNamesTheDataset) {
            }},
           {"'contact/0001/patch_radius'",
            [](ContactSurface& s) { s.patch_radius = VectorX::Ones(2); }},
-          {"'contact/0001/pads/flexibility' is 3 x 3; expected 2 x 2",
-           [](ContactSurface& s) { s.pads.flexibility = MatrixX::Ones(3, 3); }},
+          {"'contact/0001/slices/1/heights' is 3 x 1; expected 2 x 1",
+           [](ContactSurface& s) { s.slices[0].heights = VectorX::Ones(3); }},
           {"'contact/0001/material' is not finite",
            [](ContactSurface& s) {
              s.youngs_modulus = std::numeric_limits<double>::quiet_NaN();
