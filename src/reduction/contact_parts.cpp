@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/reduction/contact_parts.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "limber/common/index.hpp"
-#include "limber/common/rotation.hpp"
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/slices/roll_off.hpp"
+#include "limber/reduction/slices/slice_motion.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -178,130 +176,54 @@ Outline find_outline(const fem::Surface& surface, const Vector3& normal,
   return outline;
 }
 
-/// The mean motion of samples as sums over nodes.
-///
-/// Equation   u = sum a u / A, theta = J^-1 sum a r x u, J = sum a (r^2 1 -
-///            r r'), r from the centre of area
-struct Fit {
-  struct Share {
-    double area = 0.0;
-    Vector3 moment = Vector3::Zero();  // times r
-  };
-  double area = 0.0;
-  Vector3 centre = Vector3::Zero();
-  Matrix3 inertia = Matrix3::Zero();
-  std::map<int, Share> nodes;
-
-  explicit Fit(const std::vector<const Sample*>& samples) {
-    for (const Sample* s : samples) {
-      area += s->area;
-      centre += s->area * s->x;
-    }
-    centre /= area;
-    for (const Sample* s : samples) {
-      const Vector3 r = s->x - centre;
-      const Matrix3 cross = skew(r);
-      inertia += s->area * cross.transpose() * cross;
-      for (std::size_t k = 0; k < s->face->nodes.size(); ++k) {
-        Share& share = nodes[s->face->nodes[k]];
-        const double part = s->area * s->shape[static_cast<Eigen::Index>(k)];
-        share.area += part;
-        share.moment += part * r;
-      }
-    }
-  }
-
-  [[nodiscard]] MatrixX find_motion(const MatrixX& Phi) const {
-    MatrixX motion = MatrixX::Zero(6, Phi.cols());
-    for (const auto& [node, share] : nodes) {
-      const auto rows = Phi.middleRows<3>(3 * node);
-      motion.topRows<3>() += share.area / area * rows;
-      motion.bottomRows<3>() += skew(share.moment) * rows;
-    }
-    motion.bottomRows<3>() = inertia.inverse() * motion.bottomRows<3>();
-    return motion;
-  }
-
-  [[nodiscard]] ContactPatch make_patch(const Vector3& normal) const {
-    ContactPatch patch{normal, 0.0, {}, VectorX(std::ssize(nodes))};
-    for (const auto& [node, share] : nodes) {
-      patch.weights[std::ssize(patch.nodes)] = share.area / area;
-      patch.nodes.push_back(node);
-    }
-    return patch;
-  }
-};
-
-// One after another along the first axis, then along the second.
-struct Grid {
-  std::array<int, 2> count = {1, 1};
+/// A rectangle of the surface.
+struct Cell {
   Vector2 low;
   Vector2 high;
 
-  [[nodiscard]] Vector2 step() const {
-    return (high - low).cwiseQuotient(Vector2(count[0], count[1]));
-  }
-  [[nodiscard]] std::size_t size() const {
-    return static_cast<std::size_t>(count[0]) *
-           static_cast<std::size_t>(count[1]);
-  }
-  [[nodiscard]] std::size_t find(const Vector2& x) const {
-    std::array<int, 2> at{};
-    for (int k = 0; k < 2; ++k) {
-      const double steps = (x[k] - low[k]) / step()[k];
-      at[index(k)] = std::clamp(static_cast<int>(std::floor(steps)), 0,
-                                count[index(k)] - 1);
-    }
-    return static_cast<std::size_t>(at[1]) *
-               static_cast<std::size_t>(count[0]) +
-           static_cast<std::size_t>(at[0]);
-  }
-  [[nodiscard]] Polygon cut_out(const Polygon& hull, std::size_t cell) const {
-    const int i = static_cast<int>(cell);
-    const Vector2 corner =
-        low + Vector2(i % count[0], i / count[0]).cwiseProduct(step());
-    const Vector2 opposite = corner + step();
-    Polygon part = hull;
+  [[nodiscard]] Polygon cut_out(const Polygon& polygon) const {
+    Polygon part = polygon;
     for (int k = 0; k < 2; ++k) {
       const Vector2 axis = Vector2::Unit(k);
-      part = cut(cut(part, axis, opposite[k]), -axis, -corner[k]);
+      part = cut(cut(part, axis, high[k]), -axis, -low[k]);
     }
     return part;
   }
-  // Whether a place is on the line between two cells.
-  [[nodiscard]] bool is_between(const Vector2& x) const {
-    constexpr double kOn = 1e-6;
-    for (int k = 0; k < 2; ++k) {
-      const double steps = (x[k] - low[k]) / step()[k];
-      const double line = std::round(steps);
-      if (std::abs(steps - line) < kOn && line > 0.5 &&
-          line < count[index(k)] - 0.5) {
-        return true;
-      }
-    }
-    return false;
+  // Of a place, < 0 beyond it.
+  [[nodiscard]] double find_depth(const Vector2& x) const {
+    return std::min((x - low).minCoeff(), (high - x).minCoeff());
   }
-  void refine() {
-    const Vector2 extent = step();
-    count[extent[1] > (1.0 + 1e-6) * extent[0] ? 1 : 0] *= 2;
+  [[nodiscard]] std::array<Cell, 2> halve() const {
+    const Vector2 extent = high - low;
+    const int k = extent[1] > (1.0 + 1e-6) * extent[0] ? 1 : 0;
+    std::array<Cell, 2> halves{*this, *this};
+    halves[0].high[k] = halves[1].low[k] = 0.5 * (low[k] + high[k]);
+    return halves;
   }
 };
 
-Grid make_grid(const Polygon& hull) {
-  Grid grid{{1, 1}, hull.front(), hull.front()};
+using Cells = std::vector<Cell>;
+
+Cell find_bounds(const Polygon& hull) {
+  Cell bounds{hull.front(), hull.front()};
   for (const Vector2& x : hull) {
-    grid.low = grid.low.cwiseMin(x);
-    grid.high = grid.high.cwiseMax(x);
+    bounds.low = bounds.low.cwiseMin(x);
+    bounds.high = bounds.high.cwiseMax(x);
   }
-  return grid;
+  return bounds;
 }
 
 std::vector<std::vector<const Sample*>> sort_samples(
-    const std::vector<Sample>& samples, const Frame& frame, const Grid& grid) {
-  std::vector<std::vector<const Sample*>> cells(grid.size());
-  for (const Sample& s : samples)
-    cells[grid.find(frame.find(s.x))].push_back(&s);
-  return cells;
+    const std::vector<Sample>& samples, const Frame& frame,
+    const Cells& cells) {
+  std::vector<std::vector<const Sample*>> sorted(cells.size());
+  for (const Sample& s : samples) {
+    const Vector2 x = frame.find(s.x);
+    const auto in = std::ranges::max_element(
+        cells, {}, [&](const Cell& cell) { return cell.find_depth(x); });
+    sorted[index(in - cells.begin())].push_back(&s);
+  }
+  return sorted;
 }
 
 // Share of the flexibility that is the parts' own deformation.
@@ -313,11 +235,11 @@ double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
   double all = 0.0;
   for (const auto& cell : cells) {
     if (cell.empty()) continue;
-    const Fit fit(cell);
+    const SliceMotion fit(cell);
     const MatrixX motion = fit.find_motion(Phi.leftCols(modes));
     for (const Sample* s : cell) {
       const VectorX u = find_heights(*s, Phi, modes, normal);
-      const Vector3 r = s->x - fit.centre;
+      const Vector3 r = s->x - fit.centre();
       const VectorX rigid =
           motion.topRows<3>().transpose() * normal +
           motion.bottomRows<3>().transpose() * r.cross(normal);
@@ -328,43 +250,77 @@ double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
   return all > 0.0 ? own / all : 0.0;
 }
 
-// The convex part in a cell: of a surface that is not convex, the hull of what
-// its faces have there.
-Polygon find_part(const Outline& outline, const Grid& grid, std::size_t cell) {
-  if (outline.faces.empty()) return grid.cut_out(outline.hull, cell);
+/// The convex part in a cell.
+struct CellPart {
+  Polygon polygon;
+  double filled = 0.0;  // what it has more than the surface [m^2]
+};
+
+// Of a surface that is not convex, the hull of what its faces have there.
+CellPart find_part(const Outline& outline, const Cell& cell) {
+  if (outline.faces.empty()) return {cell.cut_out(outline.hull)};
   Polygon points;
+  double area = 0.0;
   for (const Polygon& face : outline.faces) {
-    const Polygon within = grid.cut_out(face, cell);
+    const Polygon within = cell.cut_out(face);
+    if (within.size() < 3) continue;
+    area += find_area(within);
     points.insert(points.end(), within.begin(), within.end());
   }
-  return points.size() < 3 ? Polygon{} : find_hull(points, outline.size);
+  if (points.empty()) return {};
+  CellPart part{find_hull(points, outline.size)};
+  part.filled = find_area(part.polygon) - area;
+  return part;
 }
 
-// What the parts have more than the surface, of its area.
-double find_filled(const Outline& outline, const Grid& grid) {
-  if (outline.faces.empty()) return 0.0;
-  double area = 0.0;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Polygon part = find_part(outline, grid, i);
-    if (part.size() > 2) area += find_area(part);
-  }
-  return area / outline.area - 1.0;
+double find_filled(const Outline& outline, const Cells& cells) {
+  double filled = 0.0;
+  for (const Cell& cell : cells) filled += find_part(outline, cell).filled;
+  return filled / outline.area;
 }
 
-Grid choose_grid(const std::vector<Sample>& samples, const Outline& outline,
-                 const VectorX& lambda, const MatrixX& Phi,
-                 const Vector3& normal) {
-  Grid grid = make_grid(outline.hull);
-  const auto is_deformed = [&] {
-    return 2 * grid.size() <= kMostOfConvex &&
-           find_deformation(sort_samples(samples, outline.frame, grid), lambda,
-                            Phi, normal) > kMostDeformation;
-  };
-  while (2 * grid.size() <= kMostParts &&
-         (find_filled(outline, grid) > kConvex || is_deformed())) {
-    grid.refine();
+Cells halve_all(const Cells& cells) {
+  Cells next;
+  for (const Cell& cell : cells) {
+    for (const Cell& half : cell.halve()) next.push_back(half);
   }
-  return grid;
+  return next;
+}
+
+// Halves the cells that fill at least half as much as the worst one.
+Cells halve_filled(const Outline& outline, const Cells& cells) {
+  double worst = 0.0;
+  for (const Cell& cell : cells) {
+    worst = std::max(worst, find_part(outline, cell).filled);
+  }
+  Cells next;
+  for (const Cell& cell : cells) {
+    if (find_part(outline, cell).filled < 0.5 * worst) {
+      next.push_back(cell);
+      continue;
+    }
+    for (const Cell& half : cell.halve()) {
+      if (find_part(outline, half).polygon.size() > 2) next.push_back(half);
+    }
+  }
+  return next;
+}
+
+Cells choose_cells(const std::vector<Sample>& samples, const Outline& outline,
+                   const VectorX& lambda, const MatrixX& Phi,
+                   const Vector3& normal) {
+  Cells cells{find_bounds(outline.hull)};
+  while (2 * cells.size() <= kMostOfConvex &&
+         find_deformation(sort_samples(samples, outline.frame, cells), lambda,
+                          Phi, normal) > kMostDeformation) {
+    cells = halve_all(cells);
+  }
+  while (find_filled(outline, cells) > kConvex) {
+    Cells next = halve_filled(outline, cells);
+    if (next.size() > kMostParts) break;
+    cells = std::move(next);
+  }
+  return cells;
 }
 
 void roll_off(const VectorX& lambda, ContactPart& part) {
@@ -379,12 +335,25 @@ void roll_off(const VectorX& lambda, ContactPart& part) {
   }
 }
 
-// Edges of a part at which no other part begins.
-std::vector<std::size_t> find_rim(const Polygon& part, const Grid& grid) {
+// Edges of a part that are not on the border to another cell.
+std::vector<std::size_t> find_rim(const Polygon& part, const Cell& cell,
+                                  const Cell& bounds) {
+  constexpr double kOn = 1e-6;
+  const double near = kOn * (bounds.high - bounds.low).norm();
+  const auto is_between = [&](const Vector2& x) {
+    for (int k = 0; k < 2; ++k) {
+      const bool is_low = std::abs(x[k] - cell.low[k]) < near &&
+                          cell.low[k] > bounds.low[k] + near;
+      const bool is_high = std::abs(x[k] - cell.high[k]) < near &&
+                           cell.high[k] < bounds.high[k] - near;
+      if (is_low || is_high) return true;
+    }
+    return false;
+  };
   std::vector<std::size_t> rim;
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Vector2 middle = 0.5 * (part[i] + part[(i + 1) % part.size()]);
-    if (!grid.is_between(middle)) rim.push_back(i);
+    if (!is_between(middle)) rim.push_back(i);
   }
   return rim;
 }
@@ -408,26 +377,29 @@ std::vector<ContactPart> make_contact_parts(
   double area = 0.0;
   for (const Sample& s : samples) area += s.area;
   const Outline outline = find_outline(surface, normal, area);
-  const Grid grid = choose_grid(samples, outline, basis.lambda, Phi, normal);
-  if (find_filled(outline, grid) > kMostFilled) return {};
-  const auto cells = sort_samples(samples, outline.frame, grid);
+  const Cells cells = choose_cells(samples, outline, basis.lambda, Phi, normal);
+  if (find_filled(outline, cells) > kMostFilled) return {};
+  const auto sorted = sort_samples(samples, outline.frame, cells);
+  const Cell bounds = find_bounds(outline.hull);
   std::vector<ContactPart> parts;
-  std::vector<ContactPatch> patches;
+  MatrixX loads(Phi.rows(), 0);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Polygon polygon = find_part(outline, grid, i);
-    if (cells[i].empty() || polygon.size() < 3) continue;
-    const Fit fit(cells[i]);
+    const Polygon polygon = find_part(outline, cells[i]).polygon;
+    if (sorted[i].empty() || polygon.size() < 3) continue;
+    const SliceMotion fit(sorted[i]);
     parts.push_back({.normal_B = normal,
-                     .centre_B = fit.centre - center,
+                     .centre_B = fit.centre() - center,
                      .corners_B = place_corners(polygon, outline.frame, center),
-                     .rim = find_rim(polygon, grid),
+                     .rim = find_rim(polygon, cells[i], bounds),
                      .motion_B = fit.find_motion(Phi),
                      .depth = depth});
-    patches.push_back(fit.make_patch(normal));
+    loads.conservativeResize(Eigen::NoChange, std::ssize(parts));
+    loads.rightCols(1) = fit.find_loads(body.mesh.x.cols()) * normal;
   }
-  const VectorX residual = calc_residual_flexibility(body, basis, patches);
+  const MatrixX residual = calc_residual_matrix(body, basis, loads);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].residual = residual[static_cast<Eigen::Index>(i)];
+    const auto at = static_cast<Eigen::Index>(i);
+    parts[i].residual = residual(at, at);
     roll_off(basis.lambda, parts[i]);
   }
   return parts;

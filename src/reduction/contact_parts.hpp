@@ -12,12 +12,12 @@
 /// Flat surfaces as parts that move as one piece. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Divides a flat surface by an even grid, as coarse as its modes allow: until
+/// Divides a flat surface into rectangles, as few as its modes allow: until
 /// sum_k <(u_k - fit)^2> / lambda_k <= kMostDeformation sum_k <u_k^2> /
 /// lambda_k, with u_k the mode's displacement along the normal, or there are
-/// eight. A surface that is not convex is also divided until the hulls of what
-/// its cells have are not half a percent larger than it, or there are
-/// kMostParts.
+/// eight. Of a surface that is not convex those that fill most are halved until
+/// the hulls of what is in them are not half a percent larger than it, or there
+/// are kMostParts.
 ///
 /// Equation   fit: the least squares over the part's area; R = F^T
 ///            K^+ F, of uniform pressure on the part

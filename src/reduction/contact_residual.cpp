@@ -106,12 +106,6 @@ VectorX calc_residual_flexibility(const MeshedBody& body,
 }
 
 MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
-                             const std::vector<ContactPatch>& patches) {
-  return multiply_flexibility(
-      body, Leftover(body, basis).list_loads(patches, 0, patches.size()));
-}
-
-MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
                              const MatrixX& loads) {
   return multiply_flexibility(body, Leftover(body, basis).list_loads(loads));
 }

@@ -25,13 +25,8 @@ namespace limber::flexbody {
     const std::vector<ContactPatch>& patches, const std::string& what = {},
     const Progress& progress = {});
 
-/// The same for all pairs of a few patches, symmetric and positive
-/// semidefinite: R_ij = F_i^T K^+ F_j.
-[[nodiscard]] MatrixX calc_residual_matrix(
-    const MeshedBody& body, const ReducedBasis& basis,
-    const std::vector<ContactPatch>& patches);
-
-/// The same of any loads. @param loads 3N x k on all nodes of the mesh [-]
+/// The same for all pairs of a few loads, symmetric and positive semidefinite:
+/// R_ij = F_i^T K^+ F_j. @param loads 3N x k on all nodes of the mesh [-]
 [[nodiscard]] MatrixX calc_residual_matrix(const MeshedBody& body,
                                            const ReducedBasis& basis,
                                            const MatrixX& loads);

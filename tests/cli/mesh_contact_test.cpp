@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,62 @@ TEST(MeshOnABox, GainsNoEnergyAtLongSteps) {
         << e;
   }
   EXPECT_GE(ended, 3);
+}
+
+// A ball of 40 x 20 facets.
+std::string make_globe(double radius) {
+  constexpr int kColumns = 40;
+  constexpr int kRows = 20;
+  std::string text = fmt::format("v 0 0 {}\n", -radius);
+  for (int i = 1; i < kRows; ++i) {
+    const double b = std::numbers::pi * (static_cast<double>(i) / kRows - 0.5);
+    for (int j = 0; j < kColumns; ++j) {
+      const double a = 2.0 * std::numbers::pi * j / kColumns;
+      text += fmt::format(
+          "v {:.15g} {:.15g} {:.15g}\n", radius * std::cos(b) * std::cos(a),
+          radius * std::cos(b) * std::sin(a), radius * std::sin(b));
+    }
+  }
+  text += fmt::format("v 0 0 {}\n", radius);
+  const auto at = [](int i, int j) {
+    return 2 + (i - 1) * kColumns + j % kColumns;
+  };
+  const int top = 2 + (kRows - 1) * kColumns;
+  for (int j = 0; j < kColumns; ++j) {
+    text += fmt::format("f 1 {} {}\nf {} {} {}\n", at(1, j + 1), at(1, j), top,
+                        at(kRows - 1, j), at(kRows - 1, j + 1));
+    for (int i = 1; i + 1 < kRows; ++i) {
+      text += fmt::format("f {} {} {} {}\n", at(i, j), at(i, j + 1),
+                          at(i + 1, j + 1), at(i + 1, j));
+    }
+  }
+  return text;
+}
+
+// It has more planes than a cylinder's potential takes.
+TEST(MeshOfManyFacets, IsCoveredByHullsWithAWarning) {
+  const Workspace place;
+  place.write("globe.obj", make_globe(0.05));
+  place.write("globe.urdf", make_link("globe", "2", "0.002",
+                                      "<mesh filename='globe.obj'/>", "1e9"));
+  place.write("scene.toml",
+              "[[robot]]\nname = 'r'\nfile = 'globe.urdf'\n"
+              "velocity = [0.0, 0.0, -1.0]\n[output]\npictures = false\n"
+              "[[obstacle]]\nname = 'post'\nshape = 'cylinder'\nradius = 0.1\n"
+              "length = 0.5\nposition = [0.0, 0.0, -0.152]\n"
+              "orientation_rpy = [1.5707963267948966, 0.0, 0.0]\n"
+              "[[contact]]\nbetween = ['r.globe', 'post']\n"
+              "friction = 0.3\nrestitution = 0.6\n"
+              "[gravity]\nacceleration = [0.0, 0.0, 0.0]\n"
+              "[time]\nduration = 0.01\nstep = 1e-4\n");
+  const CommandResult result = place.limber("run scene.toml --out o --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors,
+              HasSubstr("the convex shapes that stand for it are up to"));
+  const json run = json::parse(result.out, nullptr, false);
+  ASSERT_EQ(run["contacts"].size(), 1U);
+  EXPECT_NEAR(run["contacts"][0]["restitution"].get<double>(), 0.6, 0.01);
+  EXPECT_NEAR(run["contacts"][0]["impulse"].get<double>(), 2.0 * 1.6, 0.05);
 }
 
 // Two legs at a right angle, of two convex parts.

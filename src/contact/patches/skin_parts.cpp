@@ -79,7 +79,7 @@ class MeshCover {
     flexbody::ContactSlice whole;
     whole.normals_B.resize(3, 0);
     add({low, high, std::move(whole), {}});
-    while (boxes_.size() < kMostSkinParts) {
+    while (!boxes_.empty() && boxes_.size() < kMostSkinParts) {
       const auto worst = std::ranges::max_element(
           boxes_, {}, [](const Box& box) { return box.hull->error; });
       if (worst->hull->error <= kClose * (high - low).norm()) break;

@@ -205,6 +205,7 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
         {source.name + number, site.body,
          make_side(shape, source.contact.material, sites_.plan_of(link))});
     sides.back().side.bodies = find_bodies(shape);
+    sides.back().is_mesh = find_surface(shape) != nullptr;
   }
   return sides;
 }
@@ -277,10 +278,8 @@ void ContactAssembly::warn(const Side& side) {
 
 // A rigid mesh as hulls; any other side as it is.
 ContactAssembly::Side ContactAssembly::cover(const Side& side) {
+  if (!side.is_mesh) return side;
   const flexbody::ContactSurface* mesh = find_surface(side.side.shape);
-  if (mesh == nullptr || !mesh->slices.empty() || !mesh->parts.empty()) {
-    return side;
-  }
   const auto [found, is_new] = covers_.try_emplace(mesh);
   contact::SkinParts& hulls = found->second;
   if (is_new) hulls = contact::cover_mesh(*mesh);

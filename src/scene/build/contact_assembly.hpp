@@ -38,6 +38,7 @@ class ContactAssembly {
     dynamics::BodyIndex body = dynamics::kWorld;
     contact::ContactSide side;
     std::optional<std::string> warning = {};  ///< where its bodies touch
+    bool is_mesh = false;                     ///< rigid
   };
   using Sides = std::vector<Side>;
 
