@@ -28,12 +28,12 @@ namespace limber::dynamics {
 struct LinearSystem {
   TurningAxes axes;  ///< R = 1; vectors are in these axes
   bool is_moving = false;
-  Imbalance imbalance;    ///< of the reference
-  double change = 0.0;    ///< of the coefficients while it rotates by 1 rad [-]
+  Imbalance imbalance;  ///< of the reference
+  double change = 0.0;  ///< of the coefficients while it rotates by 1 rad [-]
   Eigen::Index coordinates = 0;  ///< of q
   Eigen::Index free = 0;         ///< those of free motion
-  MatrixX A;              ///< [1/s]
-  MatrixX B;              ///< [state's / s / input's]
+  MatrixX A;                     ///< [1/s]
+  MatrixX B;                     ///< [state's / s / input's]
   std::vector<LinearSignal> states;
   std::vector<LinearInput> inputs;
   MatrixX links;              ///< motion [m, rad]
