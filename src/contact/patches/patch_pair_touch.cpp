@@ -64,7 +64,10 @@ PatchPair::Nearest PatchPair::find_nearest_parts(
     nearest.A = apart.A;
     nearest.B = apart.B;
     touch.depth = -std::max(apart.gap.distance, 0.0);
+    touch.is_enclosed =
+        apart.gap.normal_W.isZero(0.0) && !(apart.gap.distance > 0.0);
     take_gap(apart.gap);
+    if (touch.is_enclosed) touch.p_W = nearest.B.p_WB;
   }
   touch.rate = -touch.normal_W.dot(
       find_twist({nearest.A, nearest.B}, touch.p_W).head<3>());

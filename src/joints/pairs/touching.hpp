@@ -14,6 +14,9 @@ struct PairTouch {
   double rate = 0.0;   ///< of the depth [m/s]
   Vector3 normal_W = Vector3::Zero();  ///< from A to B, unit [-]
   Vector3 p_W = Vector3::Zero();       ///< midway between both [m]
+  /// Whether one is wholly within the other, where no surface presses: the
+  /// depth is 0.
+  bool is_enclosed = false;
 };
 
 /// How far a body's points that may touch can move.

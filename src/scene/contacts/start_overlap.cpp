@@ -41,6 +41,13 @@ std::string refuse(const PlacedPair& pair, const joints::PairTouch& overlap) {
       pair.name, overlap.depth, p.x(), p.y(), p.z(), pair.most_overlap);
 }
 
+std::string refuse_enclosed(const PlacedPair& pair) {
+  return fmt::format(
+      "contact '{}': one lies within the other at the start, where nothing "
+      "presses them apart: move them apart, or leave this pair out",
+      pair.name);
+}
+
 std::string tell(const PlacedPair& placed, double depth,
                  const dynamics::SystemModel& model,
                  const joints::PairBodies& bodies) {
@@ -79,11 +86,13 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
     const dynamics::PairMotion motion =
         dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
     const joints::PairTouch overlap = find_touch(pair, model, motion.bodies());
-    if (!(overlap.depth > kRounding * pair.most_overlap)) continue;
-    if (overlap.depth <= pair.most_overlap) {
+    const bool overlaps = overlap.depth > kRounding * pair.most_overlap;
+    if (!overlaps && !overlap.is_enclosed) continue;
+    if (overlaps && overlap.depth <= pair.most_overlap) {
       notices.push_back(tell(pair, overlap.depth, model, motion.bodies()));
     } else if (++count <= kMostTold) {
-      problems.push_back(refuse(pair, overlap));
+      problems.push_back(overlaps ? refuse(pair, overlap)
+                                  : refuse_enclosed(pair));
     }
   }
   if (count > kMostTold) {

@@ -22,6 +22,7 @@ using test::kWorld;
 using test::SceneFolder;
 using test::time_table;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -177,6 +178,44 @@ TEST(ContactAssembly, TakesFlatOverlapsForTouchingByTheSizeOfBoth) {
 }
 
 // Hertz's force of steel on steel at 1 um [@johnson1985, eq. 4.23].
+/// A free link of one shape of up to 0.1 m.
+std::string make_small(const std::string& geometry) {
+  return "<link name='small'><inertial><mass value='1'/><inertia ixx='1' "
+         "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial><collision>"
+         "<origin rpy='0.3 0.2 0'/><geometry>" +
+         geometry + "</geometry></collision></link>\n";
+}
+
+// Surfaces that do not meet press nothing, which must not pass for a gap.
+TEST(ContactAssembly, RefusesOneShapeWithinAnother) {
+  const SceneFolder folder;
+  for (const std::string inner :
+       {"<sphere radius='0.05'/>", "<box size='0.1 0.05 0.05'/>",
+        "<cylinder radius='0.03' length='0.1'/>",
+        "<capsule radius='0.03' length='0.05'/>"}) {
+    for (const std::string outer :
+         {"shape = 'box'\nsize = [2.0, 2.0, 2.0]\n",
+          "shape = 'cylinder'\nradius = 1.0\nlength = 2.0\n",
+          "shape = 'capsule'\nradius = 1.0\nlength = 2.0\n",
+          "shape = 'sphere'\nradius = 1.0\n"}) {
+      for (const double x : {0.0, 0.31}) {
+        const std::string obstacle = fmt::format(
+            "[[obstacle]]\nname = 'big'\nposition = [{:.3f}, 0.0, 0.1]\n", x);
+        for (const auto& [A, B] :
+             {std::pair("small", "big"), std::pair("big", "small")}) {
+          const std::string refused = input_error([&] {
+            (void)folder.build(make_small(inner),
+                               kTime + obstacle + outer + contact(A, B, ""));
+          });
+          EXPECT_THAT(refused, AnyOf(HasSubstr("lies within the other"),
+                                     HasSubstr("both overlap by")))
+              << inner << outer << x;
+        }
+      }
+    }
+  }
+}
+
 TEST(ContactAssembly, TellsTheForceOfASmallOverlap) {
   const SceneFolder folder;
   const std::string steel = "youngs_modulus = 2e11\npoisson_ratio = 0.3\n";
