@@ -20,6 +20,7 @@ using Index = Eigen::Index;
 
 constexpr double kSameRatio = 1e-9;    // relative
 constexpr int kMostPeriods = 64;       // of the longest in the common one
+constexpr double kMostWork = 5e8;      // samples of a period x size^3
 constexpr double kLeastGrowth = 1e-5;  // in a common period
 constexpr double kMatters = 0.5;       // of the largest sensitivity
 constexpr double kOwn = 0.1;           // sensitivity / growth in a period
@@ -117,6 +118,14 @@ void SampledLoop::find_samples() {
       samples_.push_back({time, {}});
     }
     samples_.back().controllers.push_back(controller);
+  }
+  const auto size = static_cast<double>(at_.size);
+  if (static_cast<double>(samples_.size()) * size * size * size > kMostWork &&
+      samples_.size() > 1) {
+    throw InputError(fmt::format(
+        "{} samples of the controllers within {:g} s, the common multiple of "
+        "their periods, are too many for a loop of {} states",
+        samples_.size(), period_, at_.size));
   }
 }
 

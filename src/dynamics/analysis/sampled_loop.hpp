@@ -62,7 +62,8 @@ class SampledLoop {
  public:
   /// @param plant stored by reference
   /// @param steps none: exact motion
-  /// @throws InputError if the periods have no common multiple.
+  /// @throws InputError if the periods have no common multiple, or too many
+  /// samples in it: their number times the cube of the size is at most 5e8.
   SampledLoop(const LinearModel& plant, std::vector<LoopController> controllers,
               const std::optional<LoopSteps>& steps = std::nullopt);
 

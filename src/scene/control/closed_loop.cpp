@@ -333,6 +333,13 @@ std::optional<std::string> describe_unstable_loop(
   if (model.controllers.empty() || !model.full_bodies.empty()) {
     return std::nullopt;
   }
+  // A controller that is sampled once closes no loop.
+  const double duration = settings.end_time - state.t;
+  if (std::ranges::any_of(model.controllers, [&](const auto& controller) {
+        return 2.0 * controller.period > duration;
+      })) {
+    return std::nullopt;
+  }
   constexpr auto kLimits =
       " (linear, about the start, without dry friction and limits)";
   try {
@@ -342,8 +349,7 @@ std::optional<std::string> describe_unstable_loop(
     if (loop.plant->A.rows() > kMostStates) return std::nullopt;
     SampledLoop sampled(*loop.plant, loop.controllers);
     const auto found = sampled.find_instability();
-    const double visible =
-        std::log(kVisibleGrowth) / (settings.end_time - state.t);
+    const double visible = std::log(kVisibleGrowth) / duration;
     auto text = describe_false_vibration(
         smooth, {loop, found, visible, progress},
         find_steps(settings, linear.system.coordinates));
