@@ -67,11 +67,15 @@ struct ContactRecord {
   [[nodiscard]] bool is_impact() const { return touch_speed > rest_speed; }
 
   /// Of both bodies' rigid motions, along the normals of the first touch and
-  /// the last leave, without vibration [-]. None if they touch at the end, or
-  /// no impact brought them together.
+  /// the last leave, without vibration [-]. None if they touch at the end, no
+  /// impact brought them together, or other motion did more than that: beyond 0
+  /// to 1.5, as where a vibrating finger strikes what it hardly approaches.
   [[nodiscard]] std::optional<double> restitution() const {
+    constexpr double kMost = 1.5;
     if (!has_parted || !is_impact()) return std::nullopt;
-    return parting_speed / touch_speed;
+    const double e = parting_speed / touch_speed;
+    if (!(e >= 0.0 && e <= kMost)) return std::nullopt;
+    return e;
   }
 };
 

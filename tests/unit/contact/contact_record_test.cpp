@@ -244,5 +244,23 @@ TEST(ContactRecord, HasNoRestitutionOfARest) {
   }
 }
 
+TEST(ContactRecord, HasARestitutionWhereRigidMotionsDescribeTheImpact) {
+  dynamics::ContactRecord record;
+  record.has_parted = true;
+  record.rest_speed = 1e-3;
+  record.touch_speed = 0.1;
+  const auto find_e = [&](double parting_speed) {
+    record.parting_speed = parting_speed;
+    return record.restitution();
+  };
+  EXPECT_EQ(find_e(0.0), 0.0);
+  EXPECT_EQ(find_e(0.05), 0.5);
+  EXPECT_EQ(find_e(0.1), 1.0);
+  EXPECT_FALSE(find_e(2.8));    // a finger's vibration threw it off
+  EXPECT_FALSE(find_e(-0.02));  // and held it back
+  record.touch_speed = 5e-4;
+  EXPECT_FALSE(find_e(5e-4));  // at rest
+}
+
 }  // namespace
 }  // namespace limber::contact::contact_record_test
