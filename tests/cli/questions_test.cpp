@@ -87,7 +87,7 @@ TEST(Questions, AreAskedAboutDegreesInAReference) {
   const Workspace place;
   write_robot(place);
   EXPECT_THAT(ask(place, make_controller("period = 0.01\nreference = 45.0\n")),
-              HasSubstr("reference of up to 45 rad for joint 'hinge', 7.2 "
+              HasSubstr("reference for joint 'hinge' of up to 45 rad, 7.2 "
                         "turns"));
   EXPECT_THAT(ask(place, make_controller("period = 0.01\nreference = { kind = "
                                          "'sine', amplitude = 0.1, frequency = "
@@ -142,6 +142,53 @@ TEST(Questions, AreAskedAboutAStartThatIsWithinItsStopsAsDegrees) {
   };
   EXPECT_THAT(start(5.0), HasSubstr("where 5 degrees are within it"));
   EXPECT_EQ(start(1.4), "");
+}
+
+TEST(Questions, AreAskedAboutACommandThatIsWithinItsStopsAsDegrees) {
+  const Workspace place;
+  write_robot(place,
+              "<limit lower='-0.7' upper='0.6' effort='0' velocity='0'/>");
+  const auto drive = [&](double to) {
+    return ask(place,
+               fmt::format("[[drive]]\njoint = 'hinge'\nmode = 'position'\n"
+                           "stiffness = 1.0\ndamping = 0.1\nsignal = {{ kind "
+                           "= 'ramp', to = {}, duration = 1.0 }}\n{}",
+                           to, kProbe));
+  };
+  EXPECT_THAT(drive(5.0),
+              HasSubstr("commands joint 'hinge' up to 5 rad, beyond its stop, "
+                        "where 5 degrees are within it"));
+  EXPECT_EQ(drive(0.8), "");  // presses against the stop
+  EXPECT_THAT(ask(place, make_controller("period = 0.01\nreference = -4.0\n")),
+              HasSubstr("reference for joint 'hinge' of up to -4 rad, beyond"));
+}
+
+TEST(Questions, AreAskedAboutDegreesInLimits) {
+  const Workspace place;
+  write_robot(place, "<limit lower='-40' upper='35' effort='0' velocity='0'/>");
+  EXPECT_THAT(ask(place, kProbe),
+              HasSubstr("joint 'hinge' has a stop at 40 rad, 6.4 turns"));
+  write_robot(place, "<limit lower='-12' upper='12' effort='0' velocity='0'/>");
+  EXPECT_EQ(ask(place, kProbe), "");
+}
+
+TEST(Questions, AreAskedAboutDegreesInOrientations) {
+  const Workspace place;
+  write_robot(place, "",
+              "<collision><origin rpy='0 0 90'/><geometry><sphere "
+              "radius='0.1'/></geometry></collision>");
+  EXPECT_THAT(ask(place, kProbe),
+              HasSubstr("link 'arm', <origin>: rpy=\"0 0 90\" has 90 rad, 14.3 "
+                        "turns; is it in radians?"));
+  write_robot(place, "",
+              "<collision><origin rpy='0 6.2832 0'/><geometry><sphere "
+              "radius='0.1'/></geometry></collision>");
+  EXPECT_EQ(ask(place, kProbe), "");
+  const std::string wall =
+      "[[obstacle]]\nname = 'wall'\nshape = 'box'\nsize = [0.1, 0.1, 0.1]\n"
+      "position = [0.0, 0.0, 2.0]\norientation_rpy = [0.0, -45.0, 0.0]\n";
+  EXPECT_THAT(ask(place, wall + kProbe),
+              HasSubstr("obstacle 'wall': orientation_rpy has 45 rad, 7.2"));
 }
 
 TEST(Questions, NameShapesThatNoContactNames) {

@@ -17,6 +17,7 @@
 #include "limber/scene/robot/held_mimics.hpp"
 #include "limber/scene/robot/link_inertias.hpp"
 #include "limber/scene/robot/robot_settings.hpp"
+#include "limber/scene/robot/urdf_angles.hpp"
 #include "limber/scene/robot/urdf_joints.hpp"
 #include "limber/scene/robot/urdf_names.hpp"
 #include "limber/scene/robot/urdf_pruning.hpp"
@@ -294,6 +295,9 @@ Robot read_robot(const std::filesystem::path& file,
   robot.file = file;
   check_urdf_joints(root, problems, robot.warnings);
   check_urdf_names(root, file.string(), problems, robot.warnings);
+  if (auto question = question_rpy(root, problems)) {
+    robot.warnings.push_back(std::move(*question));
+  }
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
   if (robot.name.empty()) problems.add(root.Row(), "<robot> needs a 'name'");
   problems.raise();

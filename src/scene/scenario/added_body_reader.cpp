@@ -176,11 +176,13 @@ ObstacleSpec read_obstacle(TomlTable& table) {
   const std::optional<ShapeName> shape = read_shape_name(table);
   if (!shape) return obstacle;
   obstacle.geometry = read_geometry(table, *shape);
-  obstacle.X_WS.R =
-      shape == ShapeName::plane
-          ? read_normal(table)
-          : rotation_rpy(
-                table.vector("orientation_rpy").value_or(Vector3::Zero()));
+  if (shape == ShapeName::plane) {
+    obstacle.X_WS.R = read_normal(table);
+    return obstacle;
+  }
+  obstacle.orientation_rpy =
+      table.vector("orientation_rpy").value_or(Vector3::Zero());
+  obstacle.X_WS.R = rotation_rpy(obstacle.orientation_rpy);
   return obstacle;
 }
 

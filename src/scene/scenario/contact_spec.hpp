@@ -49,6 +49,7 @@ struct ObstacleSpec {
   Geometry geometry;
   /// None: rigid.
   std::optional<contact::SurfaceMaterial> material;
+  Vector3 orientation_rpy = Vector3::Zero();  ///< of X_WS, as given [rad]
 };
 
 /// Options of contacts; those not given follow from shapes and materials.

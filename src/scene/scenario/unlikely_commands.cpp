@@ -9,6 +9,8 @@
 #include <optional>
 #include <variant>
 
+#include "limber/scene/scenario/unlikely_angles.hpp"
+
 namespace limber::scene {
 namespace {
 
@@ -47,14 +49,26 @@ bool is_within_stops(const Driven& driven, double angle) {
                      });
 }
 
-/// The largest angle of a command, if hardly anyone means it [rad].
-std::optional<double> find_unlikely_angle(const joints::Signal& signal,
-                                          const std::optional<Driven>& driven) {
+/// What is said of a command's angle that hardly anyone means: "30 rad, 4.8
+/// turns". Commands a little beyond a stop press against it.
+std::optional<std::string> describe_unlikely_angle(
+    const joints::Signal& signal, const std::optional<Driven>& driven,
+    int coordinate) {
+  constexpr double kBeyond = 1.0;  // [rad]
   if (!driven || !has_angles_alone(driven->kind)) return std::nullopt;
   const double angle = joints::find_largest(signal).value;
-  const bool is_unlikely =
-      std::isfinite(angle) && angle > kTurn && !is_within_stops(*driven, angle);
-  return is_unlikely ? std::optional(angle) : std::nullopt;
+  if (std::isfinite(angle) && angle > kTurn &&
+      !is_within_stops(*driven, angle)) {
+    return fmt::format("{:g} rad, {:.1f} turns", angle, angle / kTurn);
+  }
+  const std::optional<double> extreme = find_extreme(signal);
+  if (!extreme ||
+      !fits_as_degrees(*driven->actions, coordinate, *extreme, kBeyond)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "{:g} rad, beyond its stop, where {:g} degrees are within it", *extreme,
+      *extreme);
 }
 
 /// Of a sine. @param who "drive 'x'" or "controller 'x'"
@@ -72,13 +86,13 @@ void question_drive(const DriveSpec& drive, const Robot& robot,
   const std::string who = "drive '" + drive.name + "'";
   question_phase(who, drive.drive.signal, questions);
   if (drive.drive.mode != DriveMode::position) return;
-  const auto angle =
-      find_unlikely_angle(drive.drive.signal, find_driven(robot, drive.joint));
+  const auto angle = describe_unlikely_angle(drive.drive.signal,
+                                             find_driven(robot, drive.joint),
+                                             drive.coordinate - 1);
   if (!angle) return;
-  questions.push_back(fmt::format(
-      "{} commands joint '{}' up to {:g} rad, {:.1f} turns; is its signal in "
-      "radians?",
-      who, drive.joint, *angle, *angle / kTurn));
+  questions.push_back(
+      fmt::format("{} commands joint '{}' up to {}; is its signal in radians?",
+                  who, drive.joint, *angle));
 }
 
 /// The joint whose coordinate a controller measures; empty: none.
@@ -95,6 +109,13 @@ std::string find_measured_joint(const ControllerSpec& controller,
   return "";
 }
 
+/// From 0: that of "angle.q2" is 1.
+int find_measured_coordinate(const ControllerSpec& controller) {
+  const char last =
+      controller.measures.empty() ? '1' : controller.measures.back();
+  return last >= '1' && last <= '9' ? last - '1' : 0;
+}
+
 void question_controller(const ControllerSpec& controller,
                          const Scenario& scenario, const Robot& robot,
                          std::vector<std::string>& questions) {
@@ -102,12 +123,12 @@ void question_controller(const ControllerSpec& controller,
   const joints::Signal& reference = controller.pid.reference;
   question_phase(who, reference, questions);
   const std::string joint = find_measured_joint(controller, scenario);
-  if (const auto angle =
-          find_unlikely_angle(reference, find_driven(robot, joint))) {
+  const int coordinate = find_measured_coordinate(controller);
+  if (const auto angle = describe_unlikely_angle(
+          reference, find_driven(robot, joint), coordinate)) {
     questions.push_back(fmt::format(
-        "{} has a reference of up to {:g} rad for joint '{}', {:.1f} turns; is "
-        "it in radians?",
-        who, *angle, joint, *angle / kTurn));
+        "{} has a reference for joint '{}' of up to {}; is it in radians?", who,
+        joint, *angle));
   }
   const double end = scenario.settings.end_time;
   if (controller.pid.period <= end) return;
@@ -163,11 +184,6 @@ void question_limits(const DriveSpec& drive, const Scenario& scenario,
 }
 
 }  // namespace
-
-bool has_angles_alone(joints::JointKind kind) {
-  using enum joints::JointKind;
-  return kind == revolute || kind == continuous || kind == universal;
-}
 
 std::vector<std::string> question_commands(const Scenario& scenario,
                                            const Robot& robot) {

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "limber/flexbody/model/unlikely_values.hpp"
+#include "limber/scene/scenario/unlikely_angles.hpp"
 #include "limber/scene/scenario/unlikely_commands.hpp"
 #include "limber/scene/scenario/unlikely_sizes.hpp"
 
@@ -19,57 +18,6 @@ using Questions = std::vector<std::string>;
 
 void append(std::vector<std::string> more, Questions& questions) {
   std::move(more.begin(), more.end(), std::back_inserter(questions));
-}
-
-/// Whether an angle is beyond a stop and would be within all as degrees.
-bool fits_as_degrees(const Joint& joint, std::size_t coordinate, double angle) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  bool is_beyond = false;
-  bool fits = true;
-  for (const JointAction& action : joint.actions) {
-    const auto* stop = std::get_if<StopOptions>(&action.law);
-    if (stop == nullptr ||
-        static_cast<std::size_t>(action.coordinate) != coordinate) {
-      continue;
-    }
-    const auto is_within = [&](double value) {
-      return value >= stop->lower.value_or(value) &&
-             value <= stop->upper.value_or(value);
-    };
-    is_beyond = is_beyond || !is_within(angle);
-    fits = fits && is_within(angle * kDegree);
-  }
-  return is_beyond && fits;
-}
-
-void question_start(const Joint& joint, const JointStart& start,
-                    Questions& questions) {
-  constexpr double kRound = 2.0 * std::numbers::pi;
-  for (std::size_t i = 0; i < start.position.size(); ++i) {
-    const double angle = start.position[i];
-    if (std::abs(angle) > kRound) {
-      questions.push_back(
-          fmt::format("joint '{}' starts at {:g} rad, {:.1f} turns; is it in "
-                      "radians?",
-                      joint.name, angle, angle / kRound));
-    } else if (fits_as_degrees(joint, i, angle)) {
-      questions.push_back(fmt::format(
-          "joint '{}' starts at {:g} rad, beyond its stop, where {:g} degrees "
-          "are within it; is it in radians?",
-          joint.name, angle, angle));
-    }
-  }
-}
-
-void question_starts(const Scenario& scenario, const Robot& robot,
-                     Questions& questions) {
-  for (const Joint& joint : robot.joints) {
-    const auto start = scenario.joints.find(joint.name);
-    if (start == scenario.joints.end() || !has_angles_alone(joint.kind)) {
-      continue;
-    }
-    question_start(joint, start->second, questions);
-  }
 }
 
 void question_gravity(const Scenario& scenario, Questions& questions) {
@@ -97,8 +45,7 @@ void question_materials(const Robot& robot, Questions& questions) {
 
 std::vector<std::string> question_scene(const Scenario& scenario,
                                         const Robot& robot) {
-  Questions questions;
-  question_starts(scenario, robot, questions);
+  Questions questions = question_angles(scenario, robot);
   question_gravity(scenario, questions);
   question_materials(robot, questions);
   append(question_sizes(robot), questions);

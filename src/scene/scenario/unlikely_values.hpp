@@ -9,10 +9,9 @@
 
 namespace limber::scene {
 
-/// Questions about values of a scene that hardly anyone means: joints that
-/// start beyond a full turn or only as degrees within their stops, gravity
-/// above 100 m/s^2, materials, sizes (unlikely_sizes.hpp) and commands
-/// (unlikely_commands.hpp).
+/// Questions about values of a scene that hardly anyone means: angles
+/// (unlikely_angles.hpp), gravity above 100 m/s^2, materials, sizes and masses
+/// (unlikely_sizes.hpp) and commands (unlikely_commands.hpp).
 [[nodiscard]] std::vector<std::string> question_scene(const Scenario& scenario,
                                                       const Robot& robot);
 
