@@ -126,7 +126,7 @@ TEST(Questions, AreAskedAboutMillimetresInARobot) {
   EXPECT_THAT(ask(place, kProbe),
               HasSubstr("link 'arm' is 60 m long and has 0.5 kg"));
   write_robot(place, "",
-              "<collision><geometry><box size='20 0.1 0.1'/></geometry>"
+              "<collision><geometry><box size='12 0.1 0.1'/></geometry>"
               "</collision>");
   EXPECT_EQ(ask(place, kProbe), "");  // a light boom
 }
@@ -189,6 +189,45 @@ TEST(Questions, AreAskedAboutDegreesInOrientations) {
       "position = [0.0, 0.0, 2.0]\norientation_rpy = [0.0, -45.0, 0.0]\n";
   EXPECT_THAT(ask(place, wall + kProbe),
               HasSubstr("obstacle 'wall': orientation_rpy has 45 rad, 7.2"));
+}
+
+TEST(Questions, AreAskedAboutGramsInAMass) {
+  const Workspace place;
+  write_robot(place, "",
+              "<collision><geometry><sphere radius='0.01'/></geometry>"
+              "</collision>");
+  EXPECT_THAT(ask(place, kProbe),
+              HasSubstr("link 'arm' has 0.5 kg in shapes of 4.19e-06 m^3, "
+                        "1.19e+05 kg/m^3; is its mass in kg?"));
+  write_robot(place, "",
+              "<collision><geometry><box size='0.2 0.05 0.06'/></geometry>"
+              "</collision>");
+  EXPECT_EQ(ask(place, kProbe), "");
+  write_robot(place, "",
+              "<collision><geometry><sphere radius='0.05'/></geometry>"
+              "</collision>");
+  EXPECT_THAT(ask(place, kProbe),
+              HasSubstr("has a radius of gyration of 0.548 m in shapes of 0.1 "
+                        "m; is its inertia in kg m^2?"));
+}
+
+TEST(Questions, AreAskedAboutAFrictionAboveThree) {
+  const Workspace place;
+  write_robot(place, "",
+              "<collision><geometry><sphere radius='0.1'/></geometry>"
+              "</collision>",
+              "<contact link='arm' youngs_modulus='1e9' "
+              "poisson_ratio='0.3'/>");
+  const auto touch = [&](const char* friction) {
+    return ask(place,
+               fmt::format("[[projectile]]\nname = 'ball'\nradius = 0.1\nmass "
+                           "= 1.0\nposition = [0.0, 0.0, 2.0]\n[[contact]]\n"
+                           "between = ['arm', 'ball']\nrestitution = 0.5\n"
+                           "friction = {}\n",
+                           friction));
+  };
+  EXPECT_THAT(touch("30.0"), HasSubstr("has a friction of 30, more than"));
+  EXPECT_EQ(touch("0.9"), "");
 }
 
 TEST(Questions, NameShapesThatNoContactNames) {

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <variant>
 
 #include "limber/common/index.hpp"
 #include "limber/common/overloaded.hpp"
@@ -16,6 +19,9 @@ constexpr double kLongest = 100.0;          // [m]
 constexpr double kLong = 5.0;               // [m]
 constexpr double kLeastLineDensity = 0.01;  // [kg/m]
 constexpr double kLeastDensity = 0.05;      // [kg/m^3]
+constexpr double kMostDensity = 25000.0;    // [kg/m^3]
+constexpr double kMostGyration = 3.0;       // of the shapes' extent
+constexpr double kLeastGyration = 1.0 / 30.0;
 
 struct ShapeSize {
   double length = 0.0;  ///< [m]
@@ -55,6 +61,70 @@ std::vector<double> find_reaches(const Robot& robot) {
   return reaches;
 }
 
+/// What a link's shapes enclose: a box in the link's axes.
+class Extent {
+ public:
+  void include(const Vector3& point, double radius) {
+    lower_ = lower_.cwiseMin(point - Vector3::Constant(radius));
+    upper_ = upper_.cwiseMax(point + Vector3::Constant(radius));
+  }
+  [[nodiscard]] double find_length() const {
+    return (upper_ - lower_).maxCoeff();
+  }
+  [[nodiscard]] bool holds(const Vector3& point) const {
+    return (point - lower_).minCoeff() >= 0.0 &&
+           (upper_ - point).minCoeff() >= 0.0;
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vector3 lower_ = Vector3::Constant(kFar);
+  Vector3 upper_ = Vector3::Constant(-kFar);
+};
+
+/// Whether a link's shapes are likely the whole of it: all primitive, around
+/// its centre of mass, its own frame, where its joint is, and its joints.
+bool is_whole(const Link& link, double reach, const Extent& extent) {
+  const bool has_sizes = std::all_of(
+      link.collisions.begin(), link.collisions.end(),
+      [](const Collision& c) { return find_size(c.geometry).volume > 0.0; });
+  return has_sizes && !link.collisions.empty() &&
+         extent.holds(link.inertia->p_LBcm) && extent.holds(Vector3::Zero()) &&
+         reach <= extent.find_length();
+}
+
+/// Of mass and inertia, by the shapes.
+void question_inertia(const Link& link, double reach,
+                      std::vector<std::string>& questions) {
+  Extent extent;
+  double volume = 0.0;
+  for (const Collision& collision : link.collisions) {
+    const ShapeSize size = find_size(collision.geometry);
+    extent.include(collision.X_LS.p, 0.5 * size.length);
+    volume += size.volume;
+  }
+  if (!is_whole(link, reach, extent)) return;
+  const double mass = link.inertia->mass;
+  if (mass > kMostDensity * volume) {
+    questions.push_back(
+        fmt::format("link '{}' has {:.4g} kg in shapes of {:.3g} m^3, {:.3g} "
+                    "kg/m^3; is its mass in kg?",
+                    link.name, mass, volume, mass / volume));
+    return;
+  }
+  const double gyration =
+      std::sqrt(std::max(0.0, 0.5 * link.inertia->inertia.trace() / mass));
+  const double length = extent.find_length();
+  if (gyration <= kMostGyration * length &&
+      gyration >= kLeastGyration * length) {
+    return;
+  }
+  questions.push_back(
+      fmt::format("link '{}' has a radius of gyration of {:.3g} m in shapes of "
+                  "{:.3g} m; is its inertia in kg m^2?",
+                  link.name, gyration, length));
+}
+
 /// @param reach of its joints [m]
 void question(const Link& link, double reach,
               std::vector<std::string>& questions) {
@@ -69,6 +139,7 @@ void question(const Link& link, double reach,
   if (length <= kLongest &&
       (length <= kLong || mass >= kLeastLineDensity * length) &&
       mass >= kLeastDensity * volume) {
+    question_inertia(link, reach, questions);
     return;
   }
   questions.push_back(fmt::format(

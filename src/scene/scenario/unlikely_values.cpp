@@ -28,6 +28,18 @@ void question_gravity(const Scenario& scenario, Questions& questions) {
       "gravity is {:g} m/s^2; is it in m/s^2 (9.81 on the ground)?", g));
 }
 
+void question_friction(const Scenario& scenario, Questions& questions) {
+  constexpr double kMost = 3.0;  // of soft rubber
+  for (const ContactSpec& contact : scenario.contacts) {
+    const double friction = contact.options.friction.value_or(0.0);
+    if (friction <= kMost) continue;
+    questions.push_back(fmt::format(
+        "[[contact]] between '{}' and '{}' has a friction of {:g}, more than "
+        "that of rubber; is it a coefficient (steel on steel: 0.2)?",
+        contact.between[0], contact.between[1], friction));
+  }
+}
+
 void question_materials(const Robot& robot, Questions& questions) {
   for (const Link& link : robot.links) {
     if (!link.flexible) continue;
@@ -47,6 +59,7 @@ std::vector<std::string> question_scene(const Scenario& scenario,
                                         const Robot& robot) {
   Questions questions = question_angles(scenario, robot);
   question_gravity(scenario, questions);
+  question_friction(scenario, questions);
   question_materials(robot, questions);
   append(question_sizes(robot), questions);
   append(question_commands(scenario, robot), questions);
