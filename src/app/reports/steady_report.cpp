@@ -10,18 +10,18 @@ std::string describe_imbalance(const dynamics::Imbalance& imbalance,
   std::string text =
       fmt::format("{} is {}: ", at.where,
                   is_moving ? "no steady motion" : "not an equilibrium");
+  // Of modes a weighted acceleration, and no force of the scene.
   if (imbalance.force > 0.0) {
-    text += fmt::format("{:.4g} N are left on body '{}', ", imbalance.force,
-                        imbalance.force_body);
+    text += fmt::format(
+        "forces accelerate body '{}' (mass times root mean square "
+        "acceleration: {:.4g} N), ",
+        imbalance.force_body, imbalance.force);
   }
   if (imbalance.moment > 0.0) {
-    text += fmt::format("{:.4g} N m on body '{}', ", imbalance.moment,
+    text += fmt::format("{:.4g} N m are left on body '{}', ", imbalance.moment,
                         imbalance.moment_body);
   }
-  text += fmt::format(
-      "where {:.4g} N act in all; {} of the forces as they are "
-      "there",
-      imbalance.acting, at.result);
+  text += fmt::format("and {} of the forces as they are there", at.result);
   if (!is_moving) {
     text += "; [initial] equilibrium = true starts from the equilibrium";
   }
