@@ -90,9 +90,14 @@ std::string describe_steps(const RunSummary& run) {
   const double all = count_parts(run);
   std::string text;
   for (const RunSummary::Steps& limit : limits) {
-    text += fmt::format("{:<9} {:5.1f} % {}, shortest {:.3g} s\n",
-                        text.empty() ? "steps" : "", 100.0 * limit.count / all,
-                        describe_limit(limit.by, run), limit.shortest);
+    text +=
+        fmt::format("{:<9} {:5.1f} % {}", text.empty() ? "steps" : "",
+                    100.0 * limit.count / all, describe_limit(limit.by, run));
+    // An event where another step ends has a step of no length.
+    if (limit.shortest > 0.0) {
+      text += fmt::format(", shortest {:.3g} s", limit.shortest);
+    }
+    text += "\n";
   }
   if (run.halved > 0) {
     text += fmt::format("          {} times a step was halved\n", run.halved);
