@@ -92,7 +92,7 @@ TEST(Units, AnElementSizeFarBelowThePartIsRefusedAtOnce) {
 }
 
 void write_arm(const Workspace& place, const std::string& modulus,
-               const std::string& scenario) {
+               const std::string& scenario, double stop) {
   place.write(
       "arm.urdf",
       fmt::format(
@@ -101,13 +101,13 @@ void write_arm(const Workspace& place, const std::string& modulus,
           "</inertial></link><link name='arm'/>"
           "<joint name='elbow' type='revolute'><parent link='base'/>"
           "<child link='arm'/><axis xyz='0 1 0'/>"
-          "<limit lower='-100' upper='100' effort='1' velocity='1'/></joint>"
-          "<flexible link='arm'><mesh file='{}'/>"
-          "<material youngs_modulus='{}' poisson_ratio='0' density='8000'/>"
+          "<limit lower='-{0}' upper='{0}' effort='1' velocity='1'/></joint>"
+          "<flexible link='arm'><mesh file='{1}'/>"
+          "<material youngs_modulus='{2}' poisson_ratio='0' density='8000'/>"
           "<basis eigenmodes='1'/><attach joint='elbow' interface='root'/>"
           "<interface name='root' plane_point='0 0 0' plane_normal='0 0 "
           "1'/></flexible></robot>\n",
-          LIMBER_SOURCE_DIR "/meshes/beam579.msh", modulus));
+          stop, LIMBER_SOURCE_DIR "/meshes/beam579.msh", modulus));
   place.write("arm.toml",
               "robot = \"arm.urdf\"\n[time]\nduration = 0.002\n"
               "step = 0.001\n" +
@@ -118,7 +118,8 @@ TEST(Units, ThatAreDoubtfulAreQuestioned) {
   const Workspace place;
   write_arm(place, "200e3",
             "[gravity]\nacceleration = [0, 0, -9810]\n"
-            "[initial.joints]\nelbow = { position = 90 }\n");
+            "[initial.joints]\nelbow = { position = 90 }\n",
+            100.0);
   const CommandResult result = place.limber("run arm.toml");
   EXPECT_THAT(result.errors, HasSubstr("is it in Pa (steel: 2.1e11)?"));
   EXPECT_THAT(result.errors, HasSubstr("starts at 90 rad, 14.3 turns"));
@@ -129,7 +130,8 @@ TEST(Units, ThatAreUsualAreNotQuestioned) {
   const Workspace place;
   write_arm(place, "200e9",
             "[gravity]\nacceleration = [0, 0, -9.81]\n"
-            "[initial.joints]\nelbow = { position = 1.5 }\n");
+            "[initial.joints]\nelbow = { position = 1.5 }\n",
+            12.0);
   const CommandResult result = place.limber("run arm.toml");
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_THAT(result.errors, Not(HasSubstr("?")));
@@ -137,7 +139,7 @@ TEST(Units, ThatAreUsualAreNotQuestioned) {
 
 TEST(Info, HasTheMassesOfFlexibleLinksAndOfTheWholeRobot) {
   const Workspace place;
-  write_arm(place, "200e9", "");
+  write_arm(place, "200e9", "", 12.0);
   const CommandResult result = place.limber("info arm.urdf --json");
   ASSERT_EQ(result.status, 0) << result.errors;
   const nlohmann::json robot = nlohmann::json::parse(result.out);
