@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
@@ -12,6 +13,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/full_turn.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
+#include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_failure.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -255,9 +257,8 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   next_.t = end;
 }
 
-void GeneralizedAlpha::apply_increments(double h, double taken) {
-  x_ *= taken;
-  add_to_applied(matrix_.wrench_increments(), terms_, taken);
+void GeneralizedAlpha::apply_increments(double h) {
+  add_to_applied(matrix_.wrench_increments(), terms_);
   const double share = 1.0 / (p_.beta * h * h);
   turn_corrections(model_, next_, x_.tail(model_.nodal_count));
   a_next_.nodes += share * x_.tail(model_.nodal_count);
@@ -367,19 +368,17 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    const bool on_nodes = acts_on_nodes(model_, terms_);
-    progress_.include(x_, exactly || on_nodes,
-                      on_nodes || (exactly && has_points(terms_)));
-    const bool reverses = exactly && progress_.reverses_last();
+    const bool has_faces =
+        acts_on_nodes(model_, terms_) || (exactly && has_points(terms_));
+    progress_.include(x_, has_faces, has_faces);
     course_.add(progress_.sizes());
     ++result.iterations;
     if (!progress_.is_finite()) {
       fail(from, h, "the motion is no longer finite");
     }
-    apply_increments(h, reverses ? kReversedShare : 1.0);
+    apply_increments(h);
     advance(from, h, end);
     progress_.measure_motion(next_, terms_, inc_);
-    if (reverses && iteration < settings_.max_iterations) continue;
     set_limits(has_trend);
     judge_early(keeps && result.factorizations == 0);
     if (progress_.is_done()) return;

@@ -75,7 +75,7 @@ class GeneralizedAlpha final : public Integrator {
   void set_limits(bool has_trend);
   void judge_early(bool keeps);
   void advance(const SystemState& from, double h, double end);
-  void apply_increments(double h, double taken);
+  void apply_increments(double h);
   void add_quasi_static_accelerations();
   bool predict(const SystemState& from, double h, double end);
   void restore_wrenches();

@@ -53,7 +53,8 @@ double GroupProgress::rest() const {
 }
 
 bool GroupProgress::alternates() const {
-  return meets_faces && reversal.is_whole() && now.value <= kBetweenFaces * motion;
+  return meets_faces && reversal.is_whole() &&
+         now.value <= kBetweenFaces * motion;
 }
 
 NewtonProgress::NewtonProgress(const SystemModel& model)
