@@ -368,9 +368,8 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    const bool has_faces =
-        acts_on_nodes(model_, terms_) || (exactly && has_points(terms_));
-    progress_.include(x_, has_faces, has_faces);
+    progress_.include(
+        x_, acts_on_nodes(model_, terms_) || (exactly && has_points(terms_)));
     course_.add(progress_.sizes());
     ++result.iterations;
     if (!progress_.is_finite()) {

@@ -13,8 +13,6 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
-// Contraction above which corrections that reverse alternate [-].
-constexpr double kAlternating = 0.25;
 // Largest correction between two faces, of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;
 
@@ -53,8 +51,7 @@ double GroupProgress::rest() const {
 }
 
 bool GroupProgress::alternates() const {
-  return meets_faces && reversal.is_whole() &&
-         now.value <= kBetweenFaces * motion;
+  return reversal.is_whole() && now.value <= kBetweenFaces * motion;
 }
 
 NewtonProgress::NewtonProgress(const SystemModel& model)
@@ -76,8 +73,7 @@ void NewtonProgress::start(const SystemState& end, const Rates& motion) {
   }
 }
 
-void NewtonProgress::include(const VectorX& increments, bool compares,
-                             bool meets_faces) {
+void NewtonProgress::include(const VectorX& increments, bool compares) {
   measure_correction(model_, groups_, increments, sizes_);
   if (compares && is_compared_) {
     measure_reversal(model_, groups_, increments, last_, reversals_);
@@ -91,7 +87,6 @@ void NewtonProgress::include(const VectorX& increments, bool compares,
     progress_[g].before = progress_[g].now;
     progress_[g].now = sizes_[g];
     progress_[g].reversal = reversals_[g];
-    progress_[g].meets_faces = meets_faces;
     progress_[g].was_done = progress_[g].is_done;
     progress_[g].is_done = false;
   }
@@ -132,14 +127,6 @@ bool NewtonProgress::may_be_noise(double poor) const {
       progress_.begin(), progress_.end(), [poor](const GroupProgress& g) {
         return !g.is_done &&
                (g.contraction() > poor || g.now.rigid <= g.roundoff.rigid);
-      });
-}
-
-bool NewtonProgress::reverses_last() const {
-  return std::any_of(
-      progress_.begin(), progress_.end(), [](const GroupProgress& g) {
-        return g.now.value > g.roundoff.rigid &&
-               g.contraction() > kAlternating && g.reversal.is_backward();
       });
 }
 

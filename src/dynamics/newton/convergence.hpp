@@ -12,9 +12,6 @@ namespace limber::dynamics {
 /// Smallest error required, relative to a step's motion [-].
 inline constexpr double kLeastShare = 1e-12;
 
-/// Share to take of a correction that reverses the one before [-].
-inline constexpr double kReversedShare = 0.5;
-
 /// Largest error allowed for both kinds of motion [m]: a hundredth of the
 /// step's own error, between 1e-12 and 1e-9 of its motion.
 ///
@@ -51,7 +48,6 @@ struct GroupProgress {
   Roundoff roundoff;
   double motion = 0.0;              ///< the step's [m]
   double contraction_before = 1.0;  ///< at the correction before the last [-]
-  bool meets_faces = false;         ///< between which corrections may alternate
   bool was_done = false;            ///< before the last correction
   bool is_done = false;
 
@@ -82,8 +78,7 @@ class NewtonProgress {
   /// Measures a correction.
   /// @param compares with the one before, if that was to be compared, too;
   /// else reversals are zero
-  /// @param meets_faces of contact, between which corrections may alternate
-  void include(const VectorX& increments, bool compares, bool meets_faces);
+  void include(const VectorX& increments, bool compares);
   /// Measures the step's motion. @param as MotionGroups::measure_motion
   void measure_motion(const SystemState& state, const SystemTerms& terms,
                       const Rates& motion);
@@ -95,10 +90,6 @@ class NewtonProgress {
   /// Whether a group is not done although its correction is round-off of
   /// coordinates, or contracts worse than `poor` [-].
   [[nodiscard]] bool may_be_noise(double poor) const;
-  /// Whether the last correction takes back much of the one before in a group:
-  /// between the two slopes of a law with a kink Newton's method can alternate
-  /// for ever.
-  [[nodiscard]] bool reverses_last() const;
   /// The slowest contraction of groups that were not done before; none if all
   /// were. That of round-off, above `poor`, is meaningless [-].
   [[nodiscard]] std::optional<double> find_contraction(double poor) const;

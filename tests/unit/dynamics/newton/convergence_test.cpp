@@ -134,7 +134,7 @@ class TwoBodies : public ::testing::Test {
   }
 
   void correct(double a, double b, bool compares = true) {
-    progress_->include(make_correction(a, b), compares, compares);
+    progress_->include(make_correction(a, b), compares);
     progress_->judge();
   }
 
