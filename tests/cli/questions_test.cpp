@@ -33,6 +33,13 @@ void write_robot(const Workspace& place, const std::string& limit = "",
                   limit, more));
 }
 
+std::string make_collision(const std::string& shape,
+                           const std::string& rpy = "0 0 0") {
+  return fmt::format(
+      "<collision><origin rpy='{}'/><geometry>{}</geometry></collision>", rpy,
+      shape);
+}
+
 /// Warnings of check; expects that run prints the same.
 std::string ask(const Workspace& place, const std::string& scenario,
                 const std::string& time = "output_interval = 0.01\n") {
@@ -120,14 +127,10 @@ TEST(Questions, AreAskedWhereADriveSaturatesBeforeItsController) {
 
 TEST(Questions, AreAskedAboutMillimetresInARobot) {
   const Workspace place;
-  write_robot(place, "",
-              "<collision><geometry><box size='60 10 10'/></geometry>"
-              "</collision>");
+  write_robot(place, "", make_collision("<box size='60 10 10'/>"));
   EXPECT_THAT(ask(place, kProbe),
               HasSubstr("link 'arm' is 60 m long and has 0.5 kg"));
-  write_robot(place, "",
-              "<collision><geometry><box size='12 0.1 0.1'/></geometry>"
-              "</collision>");
+  write_robot(place, "", make_collision("<box size='12 0.1 0.1'/>"));
   EXPECT_EQ(ask(place, kProbe), "");  // a light boom
 }
 
@@ -174,15 +177,12 @@ TEST(Questions, AreAskedAboutDegreesInLimits) {
 
 TEST(Questions, AreAskedAboutDegreesInOrientations) {
   const Workspace place;
-  write_robot(place, "",
-              "<collision><origin rpy='0 0 90'/><geometry><sphere "
-              "radius='0.1'/></geometry></collision>");
+  write_robot(place, "", make_collision("<sphere radius='0.1'/>", "0 0 90"));
   EXPECT_THAT(ask(place, kProbe),
               HasSubstr("link 'arm', <origin>: rpy=\"0 0 90\" has 90 rad, 14.3 "
                         "turns; is it in radians?"));
   write_robot(place, "",
-              "<collision><origin rpy='0 6.2832 0'/><geometry><sphere "
-              "radius='0.1'/></geometry></collision>");
+              make_collision("<sphere radius='0.1'/>", "0 6.2832 0"));
   EXPECT_EQ(ask(place, kProbe), "");
   const std::string wall =
       "[[obstacle]]\nname = 'wall'\nshape = 'box'\nsize = [0.1, 0.1, 0.1]\n"
@@ -193,19 +193,13 @@ TEST(Questions, AreAskedAboutDegreesInOrientations) {
 
 TEST(Questions, AreAskedAboutGramsInAMass) {
   const Workspace place;
-  write_robot(place, "",
-              "<collision><geometry><sphere radius='0.01'/></geometry>"
-              "</collision>");
+  write_robot(place, "", make_collision("<sphere radius='0.01'/>"));
   EXPECT_THAT(ask(place, kProbe),
               HasSubstr("link 'arm' has 0.5 kg in shapes of 4.19e-06 m^3, "
                         "1.19e+05 kg/m^3; is its mass in kg?"));
-  write_robot(place, "",
-              "<collision><geometry><box size='0.2 0.05 0.06'/></geometry>"
-              "</collision>");
+  write_robot(place, "", make_collision("<box size='0.2 0.05 0.06'/>"));
   EXPECT_EQ(ask(place, kProbe), "");
-  write_robot(place, "",
-              "<collision><geometry><sphere radius='0.05'/></geometry>"
-              "</collision>");
+  write_robot(place, "", make_collision("<sphere radius='0.05'/>"));
   EXPECT_THAT(ask(place, kProbe),
               HasSubstr("has a radius of gyration of 0.548 m in shapes of 0.1 "
                         "m; is its inertia in kg m^2?"));
@@ -213,9 +207,7 @@ TEST(Questions, AreAskedAboutGramsInAMass) {
 
 TEST(Questions, AreAskedAboutAFrictionAboveThree) {
   const Workspace place;
-  write_robot(place, "",
-              "<collision><geometry><sphere radius='0.1'/></geometry>"
-              "</collision>",
+  write_robot(place, "", make_collision("<sphere radius='0.1'/>"),
               "<contact link='arm' youngs_modulus='1e9' "
               "poisson_ratio='0.3'/>");
   const auto touch = [&](const char* friction) {
@@ -232,9 +224,7 @@ TEST(Questions, AreAskedAboutAFrictionAboveThree) {
 
 TEST(Questions, NameShapesThatNoContactNames) {
   const Workspace place;
-  write_robot(place, "",
-              "<collision><geometry><sphere radius='0.1'/></geometry>"
-              "</collision>",
+  write_robot(place, "", make_collision("<sphere radius='0.1'/>"),
               "<contact link='arm' youngs_modulus='1e9' "
               "poisson_ratio='0.3'/>");
   const std::string ball =

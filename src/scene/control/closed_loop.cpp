@@ -135,20 +135,32 @@ dynamics::SystemModel without_dry_friction(dynamics::SystemModel model) {
   return model;
 }
 
-// The same controllers with other periods; a delay stays as long.
-std::vector<LoopController> change_periods(
-    const dynamics::SystemModel& model, std::vector<LoopController> controllers,
-    const std::vector<std::size_t>& changed, double factor) {
+// The same controllers, some of them with other parameters.
+template <typename Change>
+std::vector<LoopController> change_laws(const dynamics::SystemModel& model,
+                                        const ClosedLoop& loop,
+                                        const std::vector<std::size_t>& changed,
+                                        const Change& change) {
+  std::vector<LoopController> controllers = loop.controllers;
   for (const std::size_t i : changed) {
     dynamics::PidParameters parameters =
         pid_of(model.controllers[i]).parameters();
-    parameters.period *= factor;
-    parameters.delay = static_cast<std::size_t>(
-        std::lround(static_cast<double>(parameters.delay) / factor));
+    change(parameters);
     controllers[i].period = parameters.period;
     controllers[i].law = PidController(parameters).linearise();
   }
   return controllers;
+}
+
+// With other periods; a delay stays as long.
+std::vector<LoopController> change_periods(
+    const dynamics::SystemModel& model, const ClosedLoop& loop,
+    const std::vector<std::size_t>& changed, double factor) {
+  return change_laws(model, loop, changed, [factor](auto& parameters) {
+    parameters.period *= factor;
+    parameters.delay = static_cast<std::size_t>(
+        std::lround(static_cast<double>(parameters.delay) / factor));
+  });
 }
 
 // The shortest filter of the measurements, in doubled periods, that makes the
@@ -160,14 +172,10 @@ std::optional<double> find_stable_filter(
   for (double factor = 1.0; factor <= kLongestFilter; factor *= 2.0) {
     report(progress, "search for a stable filter",
            std::log(factor) / std::log(kLongestFilter));
-    std::vector<LoopController> controllers = loop.controllers;
-    for (const std::size_t i : changed) {
-      dynamics::PidParameters parameters =
-          pid_of(model.controllers[i]).parameters();
-      parameters.filter_time = factor * period;
-      controllers[i].law = PidController(parameters).linearise();
-    }
-    SampledLoop trial(*loop.plant, std::move(controllers));
+    SampledLoop trial(*loop.plant,
+                      change_laws(model, loop, changed, [&](auto& parameters) {
+                        parameters.filter_time = factor * period;
+                      }));
     if (!trial.find_instability()) return factor * period;
   }
   return std::nullopt;
@@ -183,8 +191,8 @@ std::optional<double> find_stable_period(
     report(progress, "search for a stable period",
            std::log(2.0 * factor) / std::log(kShortest));
     try {
-      SampledLoop trial(*loop.plant, change_periods(model, loop.controllers,
-                                                    changed, factor));
+      SampledLoop trial(*loop.plant,
+                        change_periods(model, loop, changed, factor));
       if (!trial.find_instability()) return factor * period;
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch)
       // No common period with the others.
