@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Sparse>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "limber/common/types.hpp"
+
+namespace limber::fem {
+
+/// What a row (and column) of the matrices moves.
+struct MatrixRow {
+  int node = -1;       ///< index into MatrixModel::tags; -1: no node (a scalar
+                       ///< point, a generalized coordinate)
+  int component = -1;  ///< 0 to 2: translation along x, y, z; 3 to 5: rotation
+                       ///< about x, y, z; -1: not known
+};
+
+/// A matrix as a file gives it.
+struct ModelMatrix {
+  std::string file;                     ///< for messages
+  Eigen::SparseMatrix<double> entries;  ///< rows x rows, both triangles
+  int digits = 17;                      ///< significant decimal digits [-]
+};
+
+/// A named set of nodes.
+struct MatrixNodeSet {
+  std::string name;
+  std::vector<int> nodes;  ///< sorted indices into MatrixModel::tags
+};
+
+/// A finite-element model by its matrices, as its files give it: in their
+/// units, with all positions, displacements and rotations in one common frame.
+struct MatrixModel {
+  std::string source;              ///< folder or files, for messages
+  std::vector<std::string> found;  ///< what was found: a line for each file
+  std::vector<std::size_t> tags;   ///< of nodes
+  Matrix3X x;  ///< 3 x nodes, positions [length of the files]
+  std::vector<MatrixRow> rows;
+  ModelMatrix stiffness;
+  ModelMatrix mass;
+  /// Unknowns that were condensed (dependent nodes of rigid spiders): all =
+  /// equations * rows. No rows if there are none.
+  std::vector<MatrixRow> condensed;
+  Eigen::SparseMatrix<double> equations;  ///< condensed x rows
+  std::vector<MatrixNodeSet> sets;
+  /// For pictures only: edges and triangles of elements, as node indices.
+  std::vector<std::array<int, 2>> edges;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+}  // namespace limber::fem
