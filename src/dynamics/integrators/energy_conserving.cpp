@@ -28,14 +28,10 @@ constexpr double kNoise = 100.0;
 // step [-].
 constexpr double kPoorStepContraction = 0.003;
 constexpr double kPoorFreshContraction = 0.1;
-// Contraction above which corrections that reverse alternate [-].
-constexpr double kAlternating = 0.25;
 // Change of the contraction that only round-off causes [-].
 constexpr double kStalled = 2.0;
 // Largest factor by which a change of velocities is extrapolated [-].
 constexpr double kLongestTrend = 2.0;
-// Share of a correction that undoes the last one [-].
-constexpr double kDamped = 0.5;
 
 Eigen::Map<const VectorX> modes_of(const BodyModel& body, const VectorX& all) {
   return {all.data() + body.offset, body.modes};
@@ -273,17 +269,6 @@ void EnergyConserving::turn_increments() {
   }
 }
 
-// Whether the increments undo most of the last ones in a group: between the two
-// slopes of a friction law Newton's method can alternate for ever.
-bool EnergyConserving::reverses_last() const {
-  return std::any_of(progress_.groups().begin(), progress_.groups().end(),
-                     [](const GroupProgress& g) {
-                       return g.now.value > g.roundoff.rigid &&
-                              g.contraction() > kAlternating &&
-                              g.reversal.is_backward();
-                     });
-}
-
 void EnergyConserving::apply_increments(double h, double share) {
   x_ *= share;
   add_to_applied(matrix_.wrench_increments(), mean_, share);
@@ -393,8 +378,8 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     progress_.include(x_, true);
     ++result.iterations;
     if (!progress_.is_finite()) fail(end, "the motion is no longer finite");
-    const bool is_damped = reverses_last();
-    apply_increments(h, is_damped ? kDamped : 1.0);
+    const bool is_damped = progress_.reverses_last();
+    apply_increments(h, is_damped ? kReversedShare : 1.0);
     advance(state, h, end);
     set_motion(h);
     progress_.measure_motion(next_, mean_, step_);

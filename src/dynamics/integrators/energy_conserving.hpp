@@ -78,7 +78,6 @@ class EnergyConserving final : public Integrator {
   void add_losses(const SystemState& from, double h);
   [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
   void turn_increments();
-  [[nodiscard]] bool reverses_last() const;
   void apply_increments(double h, double share);
   void set_motion(double h);
   [[nodiscard]] double find_noise(const GroupProgress& group) const;

@@ -257,8 +257,9 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   next_.t = end;
 }
 
-void GeneralizedAlpha::apply_increments(double h) {
-  add_to_applied(matrix_.wrench_increments(), terms_);
+void GeneralizedAlpha::apply_increments(double h, double taken) {
+  x_ *= taken;
+  add_to_applied(matrix_.wrench_increments(), terms_, taken);
   const double share = 1.0 / (p_.beta * h * h);
   turn_corrections(model_, next_, x_.tail(model_.nodal_count));
   a_next_.nodes += share * x_.tail(model_.nodal_count);
@@ -351,7 +352,9 @@ void GeneralizedAlpha::judge_early(bool keeps) {
 
 // Newton's method from the prediction.
 void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
-                                bool keeps, bool exactly, StepResult& result) {
+                                bool keeps, Corrections corrections,
+                                StepResult& result) {
+  bool exactly = corrections != Corrections::by_factors;
   const bool has_trend = trend_step_ > 0.0 && model_.full_bodies.empty();
   const bool turns = predict(from, h, end);
   progress_.start(next_, inc_);
@@ -368,16 +371,20 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    progress_.include(
-        x_, acts_on_nodes(model_, terms_) || (exactly && has_points(terms_)));
+    progress_.include(x_, corrections == Corrections::exact_halved ||
+                              acts_on_nodes(model_, terms_) ||
+                              (exactly && has_points(terms_)));
     course_.add(progress_.sizes());
     ++result.iterations;
     if (!progress_.is_finite()) {
       fail(from, h, "the motion is no longer finite");
     }
-    apply_increments(h);
+    const bool halves =
+        corrections == Corrections::exact_halved && progress_.reverses_last();
+    apply_increments(h, halves ? kReversedShare : 1.0);
     advance(from, h, end);
     progress_.measure_motion(next_, terms_, inc_);
+    if (halves && iteration < settings_.max_iterations) continue;
     set_limits(has_trend);
     judge_early(keeps && result.factorizations == 0);
     if (progress_.is_done()) return;
@@ -407,6 +414,28 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
   }
 }
 
+// Where the factors cause a divergence, exact corrections may converge; where
+// these alternate between the two slopes of a law with a kink, halved ones.
+void GeneralizedAlpha::converge_somehow(const SystemState& from, double h,
+                                        double end, bool keeps,
+                                        StepResult& result) {
+  for (const Corrections corrections :
+       {Corrections::by_factors, Corrections::exact,
+        Corrections::exact_halved}) {
+    const bool is_first = corrections == Corrections::by_factors;
+    try {
+      converge(from, h, end, keeps && is_first, corrections, result);
+      if (is_first) return;
+      course_.clear();
+      course_.slowest = 1.0;
+      return;
+    } catch (const NumericalError&) {
+      restore_wrenches();
+      if (corrections == Corrections::exact_halved) throw;
+    }
+  }
+}
+
 StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   set_coefficients(h);
   fit_memory(h);
@@ -414,20 +443,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   const bool keeps = plan_.keeps() && factored_step_ > 0.0 &&
                      std::abs(h - factored_step_) <= 1e-9 * h;
   get_applied(terms_, kept_wrenches_);
-  try {
-    converge(state, h, end, keeps, false, result);
-  } catch (const NumericalError&) {
-    // The factors caused the divergence; exact corrections may converge.
-    restore_wrenches();
-    try {
-      converge(state, h, end, false, true, result);
-    } catch (const NumericalError&) {
-      restore_wrenches();
-      throw;
-    }
-    course_.clear();
-    course_.slowest = 1.0;
-  }
+  converge_somehow(state, h, end, keeps, result);
   plan_.finish_step(keeps, course_);
   work_.advance(state, next_, terms_, h, result);
   if (scale_) estimate_error(h, result);

@@ -69,20 +69,24 @@ class GeneralizedAlpha final : public Integrator {
   }
 
  private:
+  enum class Corrections { by_factors, exact, exact_halved };
+
   void set_coefficients(double h);
   void fit_memory(double h);
   void estimate_error(double h, StepResult& result) const;
   void set_limits(bool has_trend);
   void judge_early(bool keeps);
   void advance(const SystemState& from, double h, double end);
-  void apply_increments(double h);
+  void apply_increments(double h, double taken);
   void add_quasi_static_accelerations();
   bool predict(const SystemState& from, double h, double end);
   void restore_wrenches();
   void add_wrench_noise();
   void correct(bool exactly);
+  void converge_somehow(const SystemState& from, double h, double end,
+                        bool keeps, StepResult& result);
   void converge(const SystemState& from, double h, double end, bool keeps,
-                bool exactly, StepResult& result);
+                Corrections corrections, StepResult& result);
   void refactor(bool renews_full = false);
   void renew_factors(double h, double end, StepResult& result);
   [[noreturn]] void fail(const SystemState& from, double h,

@@ -13,6 +13,8 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
+// Contraction above which corrections that reverse alternate [-].
+constexpr double kAlternating = 0.25;
 // Largest correction between two faces, of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;
 
@@ -127,6 +129,14 @@ bool NewtonProgress::may_be_noise(double poor) const {
       progress_.begin(), progress_.end(), [poor](const GroupProgress& g) {
         return !g.is_done &&
                (g.contraction() > poor || g.now.rigid <= g.roundoff.rigid);
+      });
+}
+
+bool NewtonProgress::reverses_last() const {
+  return std::any_of(
+      progress_.begin(), progress_.end(), [](const GroupProgress& g) {
+        return g.now.value > g.roundoff.rigid &&
+               g.contraction() > kAlternating && g.reversal.is_backward();
       });
 }
 

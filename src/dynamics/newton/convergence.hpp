@@ -12,6 +12,9 @@ namespace limber::dynamics {
 /// Smallest error required, relative to a step's motion [-].
 inline constexpr double kLeastShare = 1e-12;
 
+/// Fraction to take of a correction that reverses the one before [-].
+inline constexpr double kReversedShare = 0.5;
+
 /// Largest error allowed for both kinds of motion [m]: a hundredth of the
 /// step's own error, between 1e-12 and 1e-9 of its motion.
 ///
@@ -90,6 +93,10 @@ class NewtonProgress {
   /// Whether a group is not done although its correction is round-off of
   /// coordinates, or contracts worse than `poor` [-].
   [[nodiscard]] bool may_be_noise(double poor) const;
+  /// Whether the last correction takes back much of the one before in a group:
+  /// between the two slopes of a law with a kink Newton's method can alternate
+  /// for ever.
+  [[nodiscard]] bool reverses_last() const;
   /// The slowest contraction of groups that were not done before; none if all
   /// were. That of round-off, above `poor`, is meaningless [-].
   [[nodiscard]] std::optional<double> find_contraction(double poor) const;
