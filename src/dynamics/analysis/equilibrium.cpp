@@ -14,6 +14,7 @@
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {

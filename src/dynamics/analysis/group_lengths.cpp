@@ -36,7 +36,7 @@ void GroupLengths::include_body(const SystemModel& model, BodyIndex b,
     std::fill_n(group_of_row_.begin() + first, count,
                 static_cast<Eigen::Index>(group));
   };
-  mark(first_row(body, index(b)), 6 + body.modes);
+  mark(body.row, 6 + body.modes);
   if (body.full < 0) return;
   const FullModel& full =
       model.full_bodies[static_cast<std::size_t>(body.full)];

@@ -40,14 +40,12 @@ class Derivatives {
         frames_(frames),
         out_(out),
         terms_(make_terms(model)),
-        acceleration_(make_rates(model)),
-        no_turn_(model.bodies.size(), Vector3::Zero()),
+        acceleration_(make_unknowns(model)),
+        no_motion_(acceleration_),
         derivative_(model) {
     list_coordinates();
     calc_terms(model, state_, Side::left, terms_);
-    Accelerations a = make_accelerations(model);
-    solve_accelerations(model, terms_, a);
-    acceleration_ = {a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H};
+    solve_accelerations(model, terms_, acceleration_);
   }
 
   /// Fills C into D, and the rest of K_q.
@@ -75,7 +73,7 @@ class Derivatives {
   void list_coordinates() {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyModel& body = model_.bodies[b];
-      const Index row = first_row(body, b);
+      const Index row = body.row;
       out_.bodies.emplace_back(b);
       out_.places.push_back(body.has_rigid_motion() ? std::ssize(rows_) : -1);
       for (Index i = body.has_rigid_motion() ? 0 : 6; i < 6 + body.modes; ++i) {
@@ -146,7 +144,7 @@ class Derivatives {
       t.response.stiffness = 1.0;
     }
     NewtonMatrix matrix(model_);
-    matrix.factor(model_, state_, terms_, no_turn_, {1.0, 0.0});
+    matrix.factor(model_, state_, terms_, no_motion_, {1.0, 0.0});
     const Index couplers = std::ssize(terms_.couplers);
     const auto links = std::ssize(out_.K);
     add_pair_stiffness();
@@ -235,7 +233,7 @@ class Derivatives {
     Changes out{MatrixX(n, n), MatrixX::Zero(out_.G.rows(), n),
                 MatrixX(6 * std::ssize(frames_), n),
                 MatrixX(6 * std::ssize(frames_), n)};
-    derivative_.set_point(state_, terms_, acceleration_, no_turn_,
+    derivative_.set_point(state_, terms_, acceleration_, no_motion_,
                           {0.0, velocity});
     VectorX residual;
     std::vector<Vector6> laws;
@@ -285,8 +283,8 @@ class Derivatives {
   const std::vector<AttachmentIndex>& frames_;
   SmallMotion& out_;
   SystemTerms terms_;
-  Rates acceleration_;
-  std::vector<Vector3> no_turn_;
+  VectorX acceleration_;
+  VectorX no_motion_;
   ResidualDerivative derivative_;
   std::vector<Index> rows_;  // of NewtonMatrix, one per coordinate
 };

@@ -9,6 +9,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/matrix_free.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -75,11 +76,10 @@ class SlowStep {
 StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
     : model_(model),
       lengths_(model, start),
-      no_acceleration_(make_rates(model)),
+      no_motion_(make_unknowns(model)),
       terms_(make_terms(model)),
       probed_(make_terms(model)),
       matrix_(model),
-      no_turn_(model.bodies.size(), Vector3::Zero()),
       residual_(VectorX::Zero(count_unknowns(model))),
       base_(residual_),
       correction_(residual_) {
@@ -91,7 +91,7 @@ StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
 void StaticNewton::evaluate(const SystemState& state, WrenchSource source,
                             SystemTerms& terms, VectorX& residual) const {
   calc_terms(model_, state, Side::right, terms, source);
-  calc_residual(model_, no_acceleration_, terms, residual);
+  calc_residual(model_, no_motion_, terms, residual);
 }
 
 const VectorX& StaticNewton::calc_forces_left(const SystemState& state) {
@@ -105,7 +105,7 @@ BodyIndex StaticNewton::most_moved() const {
   double largest = -1.0;
   for (BodyIndex b(0); b < std::ssize(model_.bodies); ++b) {
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
-    const Eigen::Index row = first_row(body, index(b));
+    const Eigen::Index row = body.row;
     const VectorX moved = correction_.cwiseProduct(lengths_.weights());
     double squared = moved.segment(row, 6 + body.modes).squaredNorm();
     if (body.full >= 0) {
@@ -135,15 +135,15 @@ VectorX StaticNewton::apply(const SystemState& state,
   displace(model_, direction, share, near);
   calc_terms(model_, near, Side::right, probed_, WrenchSource::iterate);
   VectorX changed = VectorX::Zero(direction.size());
-  calc_residual(model_, no_acceleration_, probed_, changed);
+  calc_residual(model_, no_motion_, probed_, changed);
   return (changed - base_) / share;
 }
 
 void StaticNewton::factor(const SystemState& state) {
   set_applied(wrenches_, terms_);
   calc_forces(model_, state, Side::right, terms_, WrenchSource::iterate);
-  calc_residual(model_, no_acceleration_, terms_, base_);
-  matrix_.factor(model_, state, terms_, no_turn_, {slowness_, 0.0}, true);
+  calc_residual(model_, no_motion_, terms_, base_);
+  matrix_.factor(model_, state, terms_, no_motion_, {slowness_, 0.0}, true);
   set_applied(laws_, terms_);  // so that it solves for forces only
 }
 

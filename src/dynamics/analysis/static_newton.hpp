@@ -2,8 +2,7 @@
 #pragma once
 
 #include "limber/dynamics/analysis/group_lengths.hpp"
-#include "limber/dynamics/equations/residual.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 
 namespace limber::dynamics {
@@ -50,11 +49,10 @@ class StaticNewton {
   const SystemModel& model_;
   GroupLengths lengths_;
   double slowness_ = 0.0;  ///< coefficient of acceleration [1/s^2]
-  Rates no_acceleration_;
+  VectorX no_motion_;
   SystemTerms terms_;   ///< at the iterate
   SystemTerms probed_;  ///< near it
   NewtonMatrix matrix_;
-  std::vector<Vector3> no_turn_;
   VectorX wrenches_;  ///< acting: six per coupler, one per transmission
   VectorX changes_;   ///< of the laws along a motion
   VectorX laws_;      ///< the same by the laws

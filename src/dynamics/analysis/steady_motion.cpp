@@ -11,6 +11,7 @@
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -38,7 +39,7 @@ class Remainder {
         spins_(spins),
         drifts_(find_drifts(model, state)),
         terms_(make_terms(model)),
-        a_(make_accelerations(model)) {
+        a_(make_unknowns(model)) {
     calc_terms(model, state, Side::right, terms_);
     solve_accelerations(model, terms_, a_);
     find_roundoff_gaps(model, terms_, 0.0, noise_);
@@ -121,7 +122,7 @@ class Remainder {
 
   void include(BodyIndex b, Imbalance& left) const {
     const BodyModel& body = model_.bodies[index(b)];
-    const auto modes = a_.etaddot.segment(body.offset, body.modes);
+    const auto modes = mode_rows(body, a_);
     note(std::sqrt(body.mass) * modes.norm(), body.name, left.force,
          left.force_body);
     if (!body.has_rigid_motion()) return;
@@ -131,10 +132,10 @@ class Remainder {
     left.acting += body.mass * steady.norm();
     const BodyTerms& t = terms_.bodies[index(b)];
     const Vector3 w = t.R_WB.transpose() * w_W;
-    note(body.mass * (a_.a_WB_W[index(b)] - steady).norm(), body.name,
+    note(body.mass * (translation_rows(body, a_) - steady).norm(), body.name,
          left.force, left.force_body);
-    note((t.J * (a_.dw_WB_B[index(b)] - w.cross(at.w_WB_B))).norm(), body.name,
-         left.moment, left.moment_body);
+    note((t.J * (rotation_rows(body, a_) - w.cross(at.w_WB_B))).norm(),
+         body.name, left.moment, left.moment_body);
   }
 
   const SystemModel& model_;
@@ -142,7 +143,7 @@ class Remainder {
   const std::vector<Vector3>& spins_;
   std::vector<Vector3> drifts_;
   SystemTerms terms_;
-  Accelerations a_;
+  VectorX a_;
   std::vector<Vector6> noise_;
 };
 

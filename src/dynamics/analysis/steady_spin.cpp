@@ -13,9 +13,8 @@
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
-#include "limber/dynamics/equations/residual.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -46,7 +45,7 @@ class Spin {
         p_0_(start.bodies.front().p_WB),
         v_0_(start.bodies.front().v_WB_W),
         terms_(make_terms(model)),
-        rates_(make_rates(model)),
+        accelerations_(make_unknowns(model)),
         lengths_(model, start) {
     check_model();
     check_velocities(start);
@@ -175,11 +174,12 @@ class Spin {
 
   VectorX find_residual(const SystemState& state) {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      rates_.translation[b] = w_.cross(state.bodies[b].v_WB_W - drifts_[b]);
+      translation_rows(model_.bodies[b], accelerations_) =
+          w_.cross(state.bodies[b].v_WB_W - drifts_[b]);
     }
     calc_terms(model_, state, Side::right, terms_);
     VectorX residual = VectorX::Zero(count_unknowns(model_));
-    calc_residual(model_, rates_, terms_, residual);
+    calc_residual(model_, accelerations_, terms_, residual);
     return residual;
   }
 
@@ -210,7 +210,7 @@ class Spin {
                 kShift * w_.squaredNorm() * motion.M;
     VectorX right(n);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const Index row = first_row(model_.bodies[b], b);
+      const Index row = model_.bodies[b].row;
       const Index p = motion.places[b];
       right.segment<3>(p) = -residual.segment<3>(row);
       right.segment<3>(p + 3) =
@@ -222,7 +222,7 @@ class Spin {
         solve(S, motion.M * find_free_turns(motion, state), right);
     VectorX correction = VectorX::Zero(residual.size());
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const Index row = first_row(model_.bodies[b], b);
+      const Index row = model_.bodies[b].row;
       const Index p = motion.places[b];
       correction.segment<3>(row) = x.segment<3>(p);
       correction.segment<3>(row + 3) =
@@ -239,7 +239,7 @@ class Spin {
   Vector3 p_0_;                  // a point of the rotation [m]
   Vector3 v_0_;                  // and its velocity [m/s]
   SystemTerms terms_;
-  Rates rates_;
+  VectorX accelerations_;
   GroupLengths lengths_;
 };
 

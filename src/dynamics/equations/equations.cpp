@@ -7,6 +7,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
@@ -274,13 +275,6 @@ SystemTerms make_terms(const SystemModel& model) {
   return terms;
 }
 
-Accelerations make_accelerations(const SystemModel& model) {
-  const std::size_t n = model.bodies.size();
-  return {std::vector<Vector3>(n, Vector3::Zero()),
-          std::vector<Vector3>(n, Vector3::Zero()),
-          VectorX::Zero(model.modal_count), VectorX::Zero(model.nodal_count)};
-}
-
 void calc_inertia_terms(const SystemModel& model, const SystemState& state,
                         SystemTerms& terms) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -335,19 +329,17 @@ void calc_terms(const SystemModel& model, const SystemState& state, Side side,
 }
 
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
-                         Accelerations& accelerations) {
+                         VectorX& accelerations) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const BodyTerms& t = terms.bodies[b];
-    auto etaddot = accelerations.etaddot.segment(body.offset, body.modes);
+    auto etaddot = mode_rows(body, accelerations);
     etaddot = t.modal_force - t.bias_e;
-    Vector3& dw = accelerations.dw_WB_B[b];
     if (!body.has_rigid_motion()) {
-      accelerations.a_WB_W[b].setZero();
-      dw.setZero();
+      accelerations.segment<6>(body.row).setZero();
       continue;
     }
-    accelerations.a_WB_W[b] = t.force_W / body.mass;
+    translation_rows(body, accelerations) = t.force_W / body.mass;
     Matrix3 schur = t.J;
     Vector3 right = t.moment_B - t.bias_r;
     for (int k = 0; k < body.modes; ++k) {
@@ -355,10 +347,42 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
       schur -= H * H.transpose();
       right -= H * etaddot[k];
     }
-    dw = schur.inverse() * right;
+    const Vector3 dw = schur.inverse() * right;
+    rotation_rows(body, accelerations) = dw;
     for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H.col(k).dot(dw);
   }
-  solve_full_accelerations(model, terms, accelerations.uddot_H);
+  solve_full_accelerations(model, terms, accelerations);
+}
+
+void calc_residual(const SystemModel& model, const VectorX& acceleration,
+                   SystemTerms& terms, VectorX& residual) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const BodyTerms& t = terms.bodies[b];
+    double* r = residual.data() + body.row;
+    Eigen::Map<Vector3> translation(r);
+    Eigen::Map<Vector3> rotation(r + 3);
+    translation.setZero();
+    rotation.setZero();
+    const Vector3 dw = rotation_rows(body, acceleration);
+    if (body.has_rigid_motion()) {
+      translation =
+          body.mass * translation_rows(body, acceleration) - t.force_W;
+      rotation = t.J * dw + t.bias_r - t.moment_B;
+    }
+    const double* etaddot = acceleration.data() + body.row + 6;
+    for (int k = 0; k < body.modes; ++k) {
+      rotation += t.H.col(k) * etaddot[k];
+      r[6 + k] =
+          etaddot[k] + t.H.col(k).dot(dw) + t.bias_e[k] - t.modal_force[k];
+    }
+    if (body.clamped) rotation.setZero();
+  }
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    const FullModel& full = model.full_bodies[f];
+    calc_full_residual(full, nodal_rows(model, full, acceleration),
+                       terms.full[f], nodal_rows(model, full, residual));
+  }
 }
 
 void add_geometric_stiffness(const SystemModel& model, std::size_t body,

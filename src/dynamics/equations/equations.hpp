@@ -22,8 +22,17 @@ void calc_terms(const SystemModel& model, const SystemState& state, Side side,
                 SystemTerms& terms, WrenchSource source = WrenchSource::law);
 
 /// Solves each body's 6 + m equations for its accelerations.
+/// @param accelerations of all unknowns (unknowns.hpp)
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
-                         Accelerations& accelerations);
+                         VectorX& accelerations);
+
+/// Residual of the equations of motion at evaluated `terms`.
+///
+/// Equation   r = M a + bias - forces; zero for fixed coordinates
+/// @param acceleration of all unknowns (unknowns.hpp)
+/// @param residual likewise [N, N m, N/kg^1/2]
+void calc_residual(const SystemModel& model, const VectorX& acceleration,
+                   SystemTerms& terms, VectorX& residual);
 
 /// Adds the derivative of minus the modal forces with respect to the modes at
 /// level nonlinear: the geometric stiffness of all forces on interfaces, points

@@ -2,6 +2,7 @@
 #include "limber/dynamics/equations/full_terms.hpp"
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -95,21 +96,20 @@ void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
 }
 
 void solve_full_accelerations(const SystemModel& model,
-                              const SystemTerms& terms, VectorX& uddot_H) {
+                              const SystemTerms& terms,
+                              VectorX& accelerations) {
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullTerms& t = terms.full[f];
-    t.solver->divide_mass(t.force - t.internal,
-                          nodes_of(model.full_bodies[f], uddot_H));
+    t.solver->divide_mass(
+        t.force - t.internal,
+        nodal_rows(model, model.full_bodies[f], accelerations));
   }
 }
 
-void calc_full_residual(const SystemModel& model, std::size_t f,
-                        const VectorX& uddot_H, SystemTerms& terms,
-                        Nodes residual) {
-  const FullModel& full = model.full_bodies[f];
-  FullTerms& t = terms.full[f];
-  t.solver->multiply_mass(nodes_of(full, uddot_H), t.scratch);
-  residual = t.scratch + t.internal - t.force;
+void calc_full_residual(const FullModel& full, const ConstNodes& uddot_H,
+                        FullTerms& terms, Nodes residual) {
+  terms.solver->multiply_mass(uddot_H, terms.scratch);
+  residual = terms.scratch + terms.internal - terms.force;
   for (Eigen::Index n = 0; n < residual.cols(); ++n) {
     if (full.mesh->held[static_cast<std::size_t>(n)] != 0) {
       residual.col(n).setZero();

@@ -46,13 +46,12 @@ void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
                          SystemTerms& terms);
 
 /// Nodal accelerations from the forces: M^-1 (force - internal).
+/// @param accelerations of all unknowns; only nodes are written
 void solve_full_accelerations(const SystemModel& model,
-                              const SystemTerms& terms, VectorX& uddot_H);
+                              const SystemTerms& terms, VectorX& accelerations);
 
 /// M u'' + internal - force, zero at clamped nodes.
-/// @param residual the rows of full body f
-void calc_full_residual(const SystemModel& model, std::size_t f,
-                        const VectorX& uddot_H, SystemTerms& terms,
-                        Nodes residual);
+void calc_full_residual(const FullModel& full, const ConstNodes& uddot_H,
+                        FullTerms& terms, Nodes residual);
 
 }  // namespace limber::dynamics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/equations/maxwell.hpp"
 
+#include "limber/dynamics/system/unknowns.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -43,8 +45,7 @@ void stretch_maxwell(const SystemModel& model, const VectorX& change,
                      double share, VectorX& all) {
   for (const BodyModel& body : model.bodies) {
     for (Eigen::Index j = 0; j < body.maxwell.size(); ++j) {
-      maxwell_of(body, all).col(j) +=
-          share * change.segment(body.offset, body.modes);
+      maxwell_of(body, all).col(j) += share * mode_rows(body, change);
     }
   }
 }

@@ -3,7 +3,6 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/energy_balance.hpp"
-#include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 /// Field lists of a run's checkpoint data (common/records/fields.hpp).
@@ -24,15 +23,6 @@ constexpr auto fields_of(const SystemState*) {
                      "homes", "nodal displacements [m]",
                      "nodal velocities [m/s]", "memories", "inputs",
                      "controllers", "pair memories", "far pairs");
-}
-
-constexpr auto fields_of(const Rates*) {
-  return list_fields("rates", "translation", "rotation", "modes", "nodes");
-}
-
-constexpr auto fields_of(const Accelerations*) {
-  return list_fields("accelerations", "a_WB_W [m/s^2]", "dw_WB_B [rad/s^2]",
-                     "etaddot [kg^1/2 m/s^2]", "uddot_H [m/s^2]");
 }
 
 constexpr auto fields_of(const EnergyBalance*) {

@@ -7,6 +7,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/displacement_measure.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -35,12 +36,14 @@ double find_reach(const SystemModel& model, BodyIndex b) {
   return reach;
 }
 
-MotionScale::MotionScale(const SystemModel& model) {
+MotionScale::MotionScale(const SystemModel& model)
+    : first_node_(first_node_row(model)) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     Body scale;
     scale.moves = body.has_rigid_motion();
     scale.offset = body.offset;
+    scale.row = body.row;
     scale.reach = find_reach(model, static_cast<BodyIndex>(b));
     if (body.modes > 0) {
       scale.sizes = DisplacementMeasure(body).mode_sizes();
@@ -54,7 +57,8 @@ MotionScale::MotionScale(const SystemModel& model) {
   }
 }
 
-MotionScale::Largest MotionScale::measure_change(const Rates& a, const Rates& b,
+MotionScale::Largest MotionScale::measure_change(const VectorX& a,
+                                                 const VectorX& b,
                                                  double factor,
                                                  double filter) const {
   Largest largest;
@@ -62,23 +66,24 @@ MotionScale::Largest MotionScale::measure_change(const Rates& a, const Rates& b,
     const Body& body = bodies_[i];
     double squared = 0.0;
     if (body.moves) {
-      squared += (b.translation[i] - a.translation[i]).squaredNorm() +
-                 body.reach * body.reach *
-                     (b.rotation[i] - a.rotation[i]).squaredNorm();
+      const Vector6 change = b.segment<6>(body.row) - a.segment<6>(body.row);
+      squared += change.head<3>().squaredNorm() +
+                 body.reach * body.reach * change.tail<3>().squaredNorm();
     }
     for (Eigen::Index k = 0; k < body.sizes.size(); ++k) {
-      const Eigen::Index at = body.offset + k;
-      const double moved = body.sizes[k] * (b.modes[at] - a.modes[at]) /
-                           (1.0 + filter * body.lambda[k]);
+      const Eigen::Index at = body.row + 6 + k;
+      const double moved =
+          body.sizes[k] * (b[at] - a[at]) / (1.0 + filter * body.lambda[k]);
       squared += moved * moved;
     }
     include(factor * factor * squared, i, largest);
   }
   for (const Nodes& full : full_) {
-    for (Eigen::Index i = full.first; i < full.first + full.dofs; i += 3) {
-      include(factor * factor *
-                  (b.nodes.segment<3>(i) - a.nodes.segment<3>(i)).squaredNorm(),
-              full.body, largest);
+    const Eigen::Index row = first_node_ + full.first;
+    for (Eigen::Index i = row; i < row + full.dofs; i += 3) {
+      include(
+          factor * factor * (b.segment<3>(i) - a.segment<3>(i)).squaredNorm(),
+          full.body, largest);
     }
   }
   return take_root(largest);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -30,7 +30,7 @@ class MotionScale {
   /// step does not resolve can err by its amplitude, not by the acceleration
   /// times h^2 [@hairer1996, eq. IV.8.19].
   /// @param factor [s^2] @param filter beta h^2 of the scheme [s^2]
-  [[nodiscard]] Largest measure_change(const Rates& a, const Rates& b,
+  [[nodiscard]] Largest measure_change(const VectorX& a, const VectorX& b,
                                        double factor, double filter) const;
   /// Of the difference of two states at the same time.
   [[nodiscard]] Largest measure_distance(const SystemState& a,
@@ -38,17 +38,19 @@ class MotionScale {
 
  private:
   struct Body {
-    bool moves = false;  // a frame of its own
-    int offset = 0;      // of its modes
-    double reach = 0.0;  // [m]
-    VectorX sizes;       // of modes [kg^-1/2]
-    VectorX lambda;      // of modes [rad^2/s^2]
+    bool moves = false;    // a frame of its own
+    int offset = 0;        // of its modes in the state
+    Eigen::Index row = 0;  // of its first unknown
+    double reach = 0.0;    // [m]
+    VectorX sizes;         // of modes [kg^-1/2]
+    VectorX lambda;        // of modes [rad^2/s^2]
   };
   struct Nodes {
     std::size_t body = 0;
     Eigen::Index first = 0;
     Eigen::Index dofs = 0;
   };
+  Eigen::Index first_node_;  // row of the first node
   std::vector<Body> bodies_;
   std::vector<Nodes> full_;
 };

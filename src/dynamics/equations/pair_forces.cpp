@@ -136,7 +136,7 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
                  nodes);
     return;
   }
-  const Eigen::Index row = first_row(body, index(b));
+  const Eigen::Index row = body.row;
   const Vector3 force_B = terms.bodies[index(b)].R_WB.transpose() * force_W;
   add_modal_residual(body, place, terms.pairs.bodies[index(b)].eta, force_B,
                      residual.data() + row + 6);

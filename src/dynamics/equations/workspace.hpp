@@ -112,15 +112,6 @@ struct SystemTerms {
   std::vector<ProductTerms> products;            ///< one a body, by calc_forces
 };
 
-/// Accelerations of all bodies.
-struct Accelerations {
-  std::vector<Vector3> a_WB_W;   ///< [m/s^2]
-  std::vector<Vector3> dw_WB_B;  ///< [rad/s^2]
-  VectorX etaddot;               ///< [kg^1/2 m/s^2]
-  VectorX uddot_H;               ///< [m/s^2]
-};
-
 [[nodiscard]] SystemTerms make_terms(const SystemModel& model);
-[[nodiscard]] Accelerations make_accelerations(const SystemModel& model);
 
 }  // namespace limber::dynamics

@@ -3,17 +3,19 @@
 
 #include <utility>
 
-#include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {
 
 CentralDifferences::CentralDifferences(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
-      a_(make_accelerations(model)),
-      a_next_(make_accelerations(model)),
+      v_(make_unknowns(model)),
+      a_(v_),
+      a_next_(v_),
+      work_(v_),
       power_(make_flows(model)),
       flows_(power_),
       next_(make_state(model)),
@@ -37,26 +39,17 @@ void CentralDifferences::exchange_memory(Archive& archive,
 // accelerations.
 void CentralDifferences::displace(const SystemState& from, double h,
                                   double end) {
-  const double half = 0.5 * h * h;
+  get_velocities(model_, from, v_);
   next_.t = end;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyState& old = from.bodies[b];
-    BodyState& body = next_.bodies[b];
-    body = old;
-    if (!model_.bodies[b].has_rigid_motion()) continue;
-    body.p_WB += h * old.v_WB_W + half * a_.a_WB_W[b];
-    body.quat_WB =
-        old.quat_WB * exp_quaternion(h * old.w_WB_B + half * a_.dw_WB_B[b]);
-    body.quat_WB.normalize();
-    body.v_WB_W += h * a_.a_WB_W[b];
-    body.w_WB_B += h * a_.dw_WB_B[b];
-  }
-  next_.eta = from.eta + h * from.etadot + half * a_.etaddot;
-  next_.etadot = from.etadot + h * a_.etaddot;
+  next_.bodies = from.bodies;
+  next_.eta = from.eta;
+  next_.u_H = from.u_H;
+  work_ = h * v_ + 0.5 * h * h * a_;
+  dynamics::displace(model_, work_, 1.0, next_);
+  work_ = v_ + h * a_;
+  set_velocities(model_, work_, next_);
   maxwell_.set_step(h, terms_);
   maxwell_.advance(from, next_);
-  next_.u_H = from.u_H + h * from.udot_H + half * a_.uddot_H;
-  next_.udot_H = from.udot_H + h * a_.uddot_H;
 }
 
 StepResult CentralDifferences::step(SystemState& state, double h, double end) {
@@ -65,12 +58,8 @@ StepResult CentralDifferences::step(SystemState& state, double h, double end) {
   require_finite(model_, next_, h);
   calc_terms(model_, next_, Side::left, terms_);
   solve_accelerations(model_, terms_, a_next_);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    next_.bodies[b].v_WB_W += 0.5 * h * (a_next_.a_WB_W[b] - a_.a_WB_W[b]);
-    next_.bodies[b].w_WB_B += 0.5 * h * (a_next_.dw_WB_B[b] - a_.dw_WB_B[b]);
-  }
-  next_.etadot += 0.5 * h * (a_next_.etaddot - a_.etaddot);
-  next_.udot_H += 0.5 * h * (a_next_.uddot_H - a_.uddot_H);
+  work_ += 0.5 * h * (a_next_ - a_);
+  set_velocities(model_, work_, next_);
   StepResult result;
   flows_ = power_;
   flows_ *= 0.5 * h;

@@ -38,8 +38,10 @@ class CentralDifferences final : public Integrator {
 
   const SystemModel& model_;
   SystemTerms terms_;
-  Accelerations a_;
-  Accelerations a_next_;
+  VectorX v_;  // velocities at n
+  VectorX a_;  // accelerations at n
+  VectorX a_next_;
+  VectorX work_;
   EnergyFlows power_;  // at the end of the last step [W]
   EnergyFlows flows_;
   SystemState next_;

@@ -14,7 +14,7 @@
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/system/body_model.hpp"
-#include "limber/dynamics/system/unknowns.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -61,13 +61,13 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       elastic_(VectorX::Zero(model.modal_count)),
       middle_(make_state(model)),
       next_(make_state(model)),
-      turns_(model.bodies.size(), Vector3::Zero()),
+      turns_(make_unknowns(model)),
       unresolved_(model, settings.damps_unresolved),
       change_(VectorX::Zero(model.modal_count)),
-      residual_(VectorX::Zero(count_unknowns(model))),
-      x_(VectorX::Zero(count_unknowns(model))),
-      step_(make_rates(model)),
-      courses_{Course{make_rates(model), 0.0}, Course{make_rates(model), 0.0}},
+      residual_(turns_),
+      x_(turns_),
+      step_(turns_),
+      courses_{Course{turns_, 0.0}, Course{turns_, 0.0}},
       left_(make_state(model)),
       progress_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
@@ -82,14 +82,8 @@ void EnergyConserving::predict(const SystemState& from, double h) {
   const bool has_trend = last.h > 0.0 && before.h > 0.0 &&
                          growth <= kLongestTrend && continues(from);
   if (!has_trend) return predict_anew(from, h);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const Vector3& v = last.mean.translation[b];
-    const Vector3& w = last.mean.rotation[b];
-    middle_.bodies[b].v_WB_W = v + growth * (v - before.mean.translation[b]);
-    middle_.bodies[b].w_WB_B = w + growth * (w - before.mean.rotation[b]);
-  }
-  middle_.etadot =
-      last.mean.modes + growth * (last.mean.modes - before.mean.modes);
+  x_ = last.mean + growth * (last.mean - before.mean);
+  set_velocities(model_, x_, middle_);
 }
 
 // Whether a step begins where the last one ended, at its velocities.
@@ -139,13 +133,8 @@ void EnergyConserving::predict_anew(const SystemState& from, double h) {
 
 void EnergyConserving::keep_course(const SystemState& end, double h) {
   std::swap(courses_[0], courses_[1]);
-  Course& last = courses_[0];
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    last.mean.translation[b] = middle_.bodies[b].v_WB_W;
-    last.mean.rotation[b] = middle_.bodies[b].w_WB_B;
-  }
-  last.mean.modes = middle_.etadot;
-  last.h = h;
+  get_velocities(model_, middle_, courses_[0].mean);
+  courses_[0].h = h;
   left_ = end;
 }
 
@@ -157,8 +146,8 @@ void EnergyConserving::advance(const SystemState& from, double h, double end) {
     BodyState& body = next_.bodies[b];
     body = old;
     if (!model_.bodies[b].has_rigid_motion()) continue;
-    turns_[b] = h * mean.w_WB_B;
-    const Vector3 half = 0.5 * turns_[b];
+    rotation_rows(model_.bodies[b], turns_) = h * mean.w_WB_B;
+    const Vector3 half = 0.5 * h * mean.w_WB_B;
     body.p_WB = old.p_WB + h * mean.v_WB_W;
     body.quat_WB = old.quat_WB * Quaternion(1.0, half.x(), half.y(), half.z());
     body.quat_WB.normalize();
@@ -187,7 +176,7 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   const BodyTerms& t = mean_.bodies[b];
   const Vector3& w0 = from.bodies[b].w_WB_B;
   const Vector3& w1 = next_.bodies[b].w_WB_B;
-  const Eigen::Index row = first_row(body, b);
+  const Eigen::Index row = body.row;
   Vector3 pi0 = first.J * w0;
   Vector3 pi1 = last.J * w1;
   const bool is_coupled =
@@ -255,17 +244,13 @@ void EnergyConserving::factor(const SystemState& from) {
   matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
 }
 
-// Change of the vector of Cayley's transform for an increment R exp(x).
-Vector3 EnergyConserving::change_turn(std::size_t b, const Vector3& x) const {
-  return cayley_jacobian_inverse(turns_[b]) * x;
-}
-
 // Rotations by Cayley's vector, in which they add up: the rotation itself is
 // almost constant when that vector diverges.
 void EnergyConserving::turn_increments() {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const Eigen::Index row = first_row(model_.bodies[b], b) + 3;
-    x_.segment<3>(row) = change_turn(b, x_.segment<3>(row));
+  for (const BodyModel& body : model_.bodies) {
+    const Vector3 turn = rotation_rows(body, turns_);
+    const Vector3 x = rotation_rows(body, x_);
+    rotation_rows(body, x_) = cayley_jacobian_inverse(turn) * x;
   }
 }
 
@@ -274,7 +259,7 @@ void EnergyConserving::apply_increments(double h, double share) {
   add_to_applied(matrix_.wrench_increments(), mean_, share);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    const Eigen::Index row = first_row(body, b);
+    const Eigen::Index row = body.row;
     middle_.etadot.segment(body.offset, body.modes) +=
         x_.segment(row + 6, body.modes) / h;
     if (!body.has_rigid_motion()) continue;
@@ -284,11 +269,8 @@ void EnergyConserving::apply_increments(double h, double share) {
 }
 
 void EnergyConserving::set_motion(double h) {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    step_.translation[b] = h * middle_.bodies[b].v_WB_W;
-    step_.rotation[b] = h * middle_.bodies[b].w_WB_B;
-  }
-  step_.modes = h * middle_.etadot;
+  get_velocities(model_, middle_, step_);
+  step_ *= h;
 }
 
 // Below this length corrections may consist of round-off alone [m].

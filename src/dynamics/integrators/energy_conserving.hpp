@@ -76,7 +76,6 @@ class EnergyConserving final : public Integrator {
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
   void factor(const SystemState& from);
   void add_losses(const SystemState& from, double h);
-  [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
   void turn_increments();
   void apply_increments(double h, double share);
   void set_motion(double h);
@@ -103,15 +102,15 @@ class EnergyConserving final : public Integrator {
   VectorX elastic_;     // of modes that elasticity couples: at the begin, e_k
   SystemState middle_;  // velocities and eta; its positions are not used
   SystemState next_;
-  std::vector<Vector3> turns_;  // of bodies over the step
+  VectorX turns_;  // rows of rotations: Cayley's vectors of the step
   UnresolvedModes unresolved_;
   VectorX change_;  // of the momenta of modes over the step
   VectorX residual_;
   VectorX x_;
-  Rates step_;  // of velocities over the step
+  VectorX step_;  // motion over the step
   // The last two steps, the last one first; they predict the next.
   struct Course {
-    Rates mean;      // velocities
+    VectorX mean;    // velocities
     double h = 0.0;  // 0: there is none [s]
   };
   std::array<Course, 2> courses_;

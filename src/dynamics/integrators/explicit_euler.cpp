@@ -4,13 +4,14 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 
 ExplicitEuler::ExplicitEuler(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
-      accelerations_(make_accelerations(model)),
+      accelerations_(make_unknowns(model)),
       next_(make_state(model)),
       flows_(make_flows(model)),
       modes_(model) {
@@ -27,12 +28,13 @@ StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
   set_work(flows_, result);
   next_ = state;
   next_.t = end;
-  modes_.add_own_forces(state, accelerations_.etaddot);
-  modes_.move(accelerations_.etaddot, next_);
+  modes_.add_own_forces(state, accelerations_);
+  modes_.move(accelerations_, next_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     BodyState& body = next_.bodies[b];
-    const Vector3& a = accelerations_.a_WB_W[b];
-    const Vector3& dw = accelerations_.dw_WB_B[b];
+    const BodyModel& model = model_.bodies[b];
+    const Vector3 a = translation_rows(model, accelerations_);
+    const Vector3 dw = rotation_rows(model, accelerations_);
     body.p_WB += h * body.v_WB_W + 0.5 * h * h * a;
     body.v_WB_W += h * a;
     body.quat_WB =

@@ -31,7 +31,7 @@ class ExplicitEuler final : public Integrator {
  private:
   const SystemModel& model_;
   SystemTerms terms_;
-  Accelerations accelerations_;  // of modes: the loads on them
+  VectorX accelerations_;  // of modes: the loads on them
   SystemState next_;
   EnergyFlows flows_;
   FreeVibration modes_;  // over a step

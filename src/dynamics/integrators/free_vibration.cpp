@@ -47,7 +47,7 @@ void FreeVibration::add_body(const BodyModel& body, Eigen::Index index) {
   const Eigen::Index elements = body.maxwell.size();
   for (int k = 0; k < body.modes; ++k) {
     modes_.push_back({flexbody::ModalOscillator(lambda[k], body.damping[k]),
-                      &body.maxwell, index, body.offset + k,
+                      &body.maxwell, index, body.offset + k, body.row + 6 + k,
                       body.maxwell_offset + k, body.modes});
     if (elements > 0) modes_.back().flow.resize(elements + 2, elements + 3);
   }
@@ -135,19 +135,20 @@ void FreeVibration::move(SystemState& state, VectorX& losses) {
 }
 
 void FreeVibration::move(const VectorX& loads, SystemState& state) {
-  for (Mode& mode : modes_) move(mode, loads[mode.index], state);
+  for (Mode& mode : modes_) move(mode, loads[mode.row], state);
 }
 
 void FreeVibration::add_own_forces(const SystemState& state,
-                                   VectorX& etaddot) const {
+                                   VectorX& accelerations) const {
   for (const Mode& mode : modes_) {
     double stretch = state.eta[mode.index];
     for (Eigen::Index j = 0; j < mode.elements->size(); ++j) {
       stretch += mode.elements->strengths[j] *
                  state.maxwell[mode.first + j * mode.stride];
     }
-    etaddot[mode.index] += mode.oscillator.lambda() * stretch +
-                           mode.oscillator.damping() * state.etadot[mode.index];
+    accelerations[mode.row] +=
+        mode.oscillator.lambda() * stretch +
+        mode.oscillator.damping() * state.etadot[mode.index];
   }
 }
 

@@ -29,12 +29,13 @@ class FreeVibration {
   /// Moves modes and elements without a load, and adds the energy that each
   /// body loses. @param losses of at least all bodies [J]
   void move(SystemState& state, VectorX& losses);
-  /// The same with constant loads. @param loads f of all modes [kg^-1/2 N]
+  /// The same with constant loads. @param loads f of modes, in the rows of all
+  /// unknowns [kg^-1/2 N]
   void move(const VectorX& loads, SystemState& state);
 
   /// Adds c q' + lambda (q + sum_j g_j d_j), which makes the acceleration of a
-  /// mode the load on it.
-  void add_own_forces(const SystemState& state, VectorX& etaddot) const;
+  /// mode the load on it. @param accelerations of all unknowns
+  void add_own_forces(const SystemState& state, VectorX& accelerations) const;
 
  private:
   struct Mode {
@@ -42,6 +43,7 @@ class FreeVibration {
     const flexbody::MaxwellElements* elements;
     Eigen::Index body;
     Eigen::Index index;   // in SystemState::eta
+    Eigen::Index row;     // in all unknowns
     Eigen::Index first;   // in SystemState::maxwell, of its first element
     Eigen::Index stride;  // there, to its next element
     flexbody::FreeResponse response{};  // over time_, without elements

@@ -2,6 +2,7 @@
 #include "limber/dynamics/integrators/full_turn.hpp"
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 // Displacements at the end; returns false and writes nothing for a body that
 // hardly rotates.
 bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
-                          const SystemState& from, const VectorX& uddot_H,
+                          const SystemState& from, const ConstNodes& uddot,
                           double h, double s, Nodes u_H) {
   constexpr double kLeastTurn = 0.01;  // [rad]
   MeanFrame frame;
@@ -18,7 +19,6 @@ bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
   if (!(h * w.norm() > kLeastTurn)) return false;
   const flexbody::FullBody& mesh = *full.mesh;
   const ConstNodes u = nodes_of(full, from.u_H);
-  const ConstNodes uddot = nodes_of(full, uddot_H);
   Vector3 spin = Vector3::Zero();
   Vector3 mean = Vector3::Zero();
   for (Eigen::Index i = 0; i < u.cols(); ++i) {
@@ -64,18 +64,19 @@ void turn_correction(const SystemModel& model, const FullModel& full,
 }  // namespace
 
 bool predict_turns(const SystemModel& model, const SystemState& from,
-                   const VectorX& uddot_H, const VectorX& a_H,
-                   const NewmarkStep& step, VectorX& a_next_H) {
+                   const VectorX& accelerations, const VectorX& a,
+                   const NewmarkStep& step, VectorX& a_next) {
   const auto [h, lag, beta] = step;
   bool turns = false;
   for (const FullModel& full : model.full_bodies) {
-    Nodes next = nodes_of(full, a_next_H);
-    if (!predict_turned_nodes(model, full, from, uddot_H, h, lag + beta,
-                              next)) {
+    Nodes next = nodal_rows(model, full, a_next);
+    if (!predict_turned_nodes(model, full, from,
+                              nodal_rows(model, full, accelerations), h,
+                              lag + beta, next)) {
       continue;
     }
     next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
-            h * h * lag * nodes_of(full, a_H);
+            h * h * lag * nodal_rows(model, full, a);
     next /= h * h * beta;
     turns = true;
   }
@@ -83,11 +84,10 @@ bool predict_turns(const SystemModel& model, const SystemState& from,
 }
 
 void turn_corrections(const SystemModel& model, const SystemState& state,
-                      Eigen::Ref<VectorX> d_H) {
+                      VectorX& correction) {
   for (const FullModel& full : model.full_bodies) {
     if (model.bodies[static_cast<std::size_t>(full.body)].clamped) continue;
-    turn_correction(model, full, state,
-                    Nodes(d_H.data() + full.first, 3, full.mesh->node_count()));
+    turn_correction(model, full, state, nodal_rows(model, full, correction));
   }
 }
 

@@ -23,14 +23,13 @@ struct NewmarkStep {
 ///            p'' + w' x (c - p) + w x (w x (c - p)) = mean of u'',
 ///            w' = spread sum_i R y_i x (u''_i - w x (w x (x_i + u_i - p)))
 ///            s = lag + beta
-/// @param uddot_H nodal accelerations, ordered as SystemState::u_H [m/s^2]
-/// @param a_H the step's a, likewise [m/s^2]
-/// @param a_next_H its a_next [m/s^2]; written for bodies that rotate by more
-/// than 0.01 rad
+/// @param accelerations of all unknowns
+/// @param a, a_next the step's, of all unknowns; a_next is written for nodes of
+/// bodies that rotate by more than 0.01 rad
 /// @returns whether any does
 bool predict_turns(const SystemModel& model, const SystemState& from,
-                   const VectorX& uddot_H, const VectorX& a_H,
-                   const NewmarkStep& step, VectorX& a_next_H);
+                   const VectorX& accelerations, const VectorX& a,
+                   const NewmarkStep& step, VectorX& a_next);
 
 /// Applies the rotational part of Newton's correction of each unreduced body as
 /// a finite rotation, without strain: a linear one by theta stretches the body
@@ -39,8 +38,8 @@ bool predict_turns(const SystemModel& model, const SystemState& from,
 /// Equation   d + (exp(theta) - 1 - theta x) (x + u - p),
 ///            theta = spread sum_i R y_i x d_i
 /// @param state at which the correction was computed
-/// @param d_H the correction, ordered as SystemState::u_H [m]
+/// @param correction of all unknowns; only nodes are changed
 void turn_corrections(const SystemModel& model, const SystemState& state,
-                      Eigen::Ref<VectorX> d_H);
+                      VectorX& correction);
 
 }  // namespace limber::dynamics

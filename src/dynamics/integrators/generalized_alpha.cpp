@@ -15,6 +15,7 @@
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_failure.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -47,15 +48,21 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       maxwell_(model, flexbody::set_linear_step),
       next_(make_state(model)),
       terms_(make_terms(model)),
-      residual_(VectorX::Zero(count_unknowns(model))),
-      x_(VectorX::Zero(count_unknowns(model))),
+      a_(make_unknowns(model)),
+      a_next_(a_),
+      vdot_(a_),
+      vdot_next_(a_),
+      v_(a_),
+      v_next_(a_),
+      motion_(a_),
+      residual_(a_),
+      x_(a_),
       progress_(model),
       plan_(progress_.groups().size()),
       course_(progress_.groups().size()),
       kept_wrenches_(VectorX::Zero(count_wrench_rows(terms_))),
       gaps_(model.couplers.size() + model.transmissions.size(),
             Vector6::Zero()) {
-  a_ = a_next_ = vdot_ = vdot_next_ = inc_ = make_rates(model);
   if (settings.estimates_error) scale_.emplace(model);
   const bool conserves = !settings.implicit_euler && settings.rho_inf == 1.0;
   if (conserves && settings.tolerance == 0.0) settings_.tolerance = kLeastShare;
@@ -96,15 +103,7 @@ void GeneralizedAlpha::fit_memory(double h) {
   memory_step_ = h;
   if (std::abs(ratio - 1.0) <= kSame) return;
   const double share = ratio <= kMostGrowth ? ratio : 0.0;
-  const auto fit = [share](auto& a, const auto& vdot) {
-    a = vdot + share * (a - vdot);
-  };
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    fit(a_.translation[b], vdot_.translation[b]);
-    fit(a_.rotation[b], vdot_.rotation[b]);
-  }
-  fit(a_.modes, vdot_.modes);
-  fit(a_.nodes, vdot_.nodes);
+  a_ = vdot_ + share * (a_ - vdot_);
 }
 
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
@@ -137,7 +136,7 @@ void GeneralizedAlpha::set_coefficients(double h) {
 }
 
 void GeneralizedAlpha::refactor(bool renews_full) {
-  matrix_.factor(model_, next_, terms_, inc_.rotation, coefficients_,
+  matrix_.factor(model_, next_, terms_, motion_, coefficients_,
                  renews_full || renews_full_);
   renews_full_ = false;
 }
@@ -158,36 +157,16 @@ void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
 // Adds accelerations for the residual: M^-1 times it for motion that the step
 // resolves, quasi-static ones for stiffer motion.
 void GeneralizedAlpha::add_quasi_static_accelerations() {
-  for (Vector3& rotation : inc_.rotation) rotation.setZero();
+  motion_.setZero();
   refactor();
   factored_step_ = 0.0;
   matrix_.solve(model_, terms_, residual_, x_);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double* x = x_.data() + first_row(body, b);
-    const double c = coefficients_.acceleration;
-    const Vector3 translation = c * Eigen::Map<const Vector3>(x);
-    const Vector3 rotation = c * Eigen::Map<const Vector3>(x + 3);
-    const auto modes = c * Eigen::Map<const VectorX>(x + 6, body.modes);
-    a_.translation[b] += translation;
-    vdot_.translation[b] += translation;
-    a_.rotation[b] += rotation;
-    vdot_.rotation[b] += rotation;
-    a_.modes.segment(body.offset, body.modes) += modes;
-    vdot_.modes.segment(body.offset, body.modes) += modes;
-  }
-  const auto nodes = coefficients_.acceleration * x_.tail(model_.nodal_count);
-  a_.nodes += nodes;
-  vdot_.nodes += nodes;
+  a_ += coefficients_.acceleration * x_;
+  vdot_ += coefficients_.acceleration * x_;
 }
 
 void GeneralizedAlpha::start(const SystemState& state, double h) {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    a_.translation[b].setZero();
-    a_.rotation[b].setZero();
-  }
-  a_.modes.setZero();
-  a_.nodes.setZero();
+  a_.setZero();
   vdot_ = vdot_next_ = a_;
   memory_step_ = trend_step_ = 0.0;
   next_ = state;
@@ -222,57 +201,28 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   const double d_next = (1.0 - p_.am) / (1.0 - p_.af);
   const double d_n = p_.am / (1.0 - p_.af);
   const double d_old = p_.af / (1.0 - p_.af);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyState& old = from.bodies[b];
-    BodyState& body = next_.bodies[b];
-    if (model_.bodies[b].full >= 0) continue;  // follows its nodes
-    inc_.translation[b] = h * old.v_WB_W + inc_n * a_.translation[b] +
-                          inc_next * a_next_.translation[b];
-    inc_.rotation[b] = h * old.w_WB_B + inc_n * a_.rotation[b] +
-                       inc_next * a_next_.rotation[b];
-    body.p_WB = old.p_WB + inc_.translation[b];
-    body.quat_WB = old.quat_WB * exp_quaternion(inc_.rotation[b]);
-    body.quat_WB.normalize();
-    body.v_WB_W =
-        old.v_WB_W + v_n * a_.translation[b] + v_next * a_next_.translation[b];
-    body.w_WB_B =
-        old.w_WB_B + v_n * a_.rotation[b] + v_next * a_next_.rotation[b];
-    vdot_next_.translation[b] = d_next * a_next_.translation[b] +
-                                d_n * a_.translation[b] -
-                                d_old * vdot_.translation[b];
-    vdot_next_.rotation[b] = d_next * a_next_.rotation[b] +
-                             d_n * a_.rotation[b] - d_old * vdot_.rotation[b];
-  }
-  inc_.modes = h * from.etadot + inc_n * a_.modes + inc_next * a_next_.modes;
-  next_.eta = from.eta + inc_.modes;
+  motion_ = h * v_ + inc_n * a_ + inc_next * a_next_;
+  v_next_ = v_ + v_n * a_ + v_next * a_next_;
+  vdot_next_ = d_next * a_next_ + d_n * a_ - d_old * vdot_;
+  next_.bodies = from.bodies;
+  next_.eta = from.eta;
+  next_.u_H = from.u_H;
+  displace(model_, motion_, 1.0, next_);
+  set_velocities(model_, v_next_, next_);
   maxwell_.advance(from, next_);
-  next_.etadot = from.etadot + v_n * a_.modes + v_next * a_next_.modes;
-  vdot_next_.modes =
-      d_next * a_next_.modes + d_n * a_.modes - d_old * vdot_.modes;
-  inc_.nodes = h * from.udot_H + inc_n * a_.nodes + inc_next * a_next_.nodes;
-  next_.u_H = from.u_H + inc_.nodes;
-  next_.udot_H = from.udot_H + v_n * a_.nodes + v_next * a_next_.nodes;
-  vdot_next_.nodes =
-      d_next * a_next_.nodes + d_n * a_.nodes - d_old * vdot_.nodes;
   next_.t = end;
 }
 
 void GeneralizedAlpha::apply_increments(double h, double taken) {
   x_ *= taken;
   add_to_applied(matrix_.wrench_increments(), terms_, taken);
-  const double share = 1.0 / (p_.beta * h * h);
-  turn_corrections(model_, next_, x_.tail(model_.nodal_count));
-  a_next_.nodes += share * x_.tail(model_.nodal_count);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    a_next_.modes.segment(body.offset, body.modes) +=
-        share * x_.segment(first_row(body, b) + 6, body.modes);
-    if (!body.has_rigid_motion()) continue;
-    const double* x = x_.data() + first_row(body, b);
-    a_next_.translation[b] += share * Eigen::Map<const Vector3>(x);
-    a_next_.rotation[b] += share * (right_jacobian_inverse(inc_.rotation[b]) *
-                                    Eigen::Map<const Vector3>(x + 3));
+  turn_corrections(model_, next_, x_);
+  for (const BodyModel& body : model_.bodies) {
+    const Vector3 turn = rotation_rows(body, motion_);
+    const Vector3 x = rotation_rows(body, x_);
+    rotation_rows(body, x_) = right_jacobian_inverse(turn) * x;
   }
+  a_next_ += 1.0 / (p_.beta * h * h) * x_;
 }
 
 void GeneralizedAlpha::fail(const SystemState& from, double h,
@@ -293,18 +243,13 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   const double p_last = trend * (1.0 - p_.af) / (1.0 - p_.am);
   const double p_v = 1.0 / (1.0 - p_.am) + p_last;
   const double p_a = p_.am / (1.0 - p_.am);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    a_next_.translation[b] = p_v * vdot_.translation[b] -
-                             p_a * a_.translation[b] -
-                             p_last * vdot_next_.translation[b];
-    a_next_.rotation[b] = p_v * vdot_.rotation[b] - p_a * a_.rotation[b] -
-                          p_last * vdot_next_.rotation[b];
-  }
-  a_next_.modes =
-      p_v * vdot_.modes - p_a * a_.modes - p_last * vdot_next_.modes;
-  a_next_.nodes = (vdot_.nodes - p_.am * a_.nodes) / (1.0 - p_.am);
-  const bool turns = predict_turns(model_, from, vdot_.nodes, a_.nodes,
-                                   {h, p_.lag, p_.beta}, a_next_.nodes);
+  a_next_ = p_v * vdot_ - p_a * a_ - p_last * vdot_next_;
+  nodal_rows(model_, a_next_) =
+      (nodal_rows(model_, vdot_) - p_.am * nodal_rows(model_, a_)) /
+      (1.0 - p_.am);
+  const bool turns =
+      predict_turns(model_, from, vdot_, a_, {h, p_.lag, p_.beta}, a_next_);
+  get_velocities(model_, from, v_);
   copy_step_constants(from, next_);
   advance(from, h, end);
   return turns;
@@ -327,8 +272,8 @@ void GeneralizedAlpha::add_wrench_noise() {
 
 void GeneralizedAlpha::correct(bool exactly) {
   if (exactly || acts_on_nodes(model_, terms_)) {
-    exact_.solve({next_, terms_, vdot_next_, inc_.rotation, coefficients_},
-                 residual_, matrix_, x_);
+    exact_.solve({next_, terms_, vdot_next_, motion_, coefficients_}, residual_,
+                 matrix_, x_);
   } else {
     matrix_.solve(model_, terms_, residual_, x_);
   }
@@ -357,7 +302,7 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
   bool exactly = corrections != Corrections::by_factors;
   const bool has_trend = trend_step_ > 0.0 && model_.full_bodies.empty();
   const bool turns = predict(from, h, end);
-  progress_.start(next_, inc_);
+  progress_.start(next_, motion_);
   course_.clear();
   bool knows_noise = false;
   // Factors of an unreduced body are in its axes, and cheap to rotate.
@@ -383,7 +328,7 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
         corrections == Corrections::exact_halved && progress_.reverses_last();
     apply_increments(h, halves ? kReversedShare : 1.0);
     advance(from, h, end);
-    progress_.measure_motion(next_, terms_, inc_);
+    progress_.measure_motion(next_, terms_, motion_);
     if (halves && iteration < settings_.max_iterations) continue;
     set_limits(has_trend);
     judge_early(keeps && result.factorizations == 0);

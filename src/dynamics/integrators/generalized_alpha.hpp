@@ -6,7 +6,6 @@
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
-#include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/integrators/alpha_parameters.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
 #include "limber/dynamics/integrators/maxwell_motion.hpp"
@@ -109,11 +108,14 @@ class GeneralizedAlpha final : public Integrator {
   SystemState next_;
   SystemTerms terms_;
   double memory_step_ = 0.0;  // h for which a_ holds, 0: for any [s]
-  Rates a_;                   // the algorithm's accelerations at n
-  Rates a_next_;
-  Rates vdot_;  // accelerations at n
-  Rates vdot_next_;
-  Rates inc_;  // motion over the step
+  // Of all unknowns.
+  VectorX a_;       // the algorithm's accelerations at n
+  VectorX a_next_;  // at n + 1
+  VectorX vdot_;    // accelerations at n
+  VectorX vdot_next_;
+  VectorX v_;  // velocities at n
+  VectorX v_next_;
+  VectorX motion_;  // over the step
   VectorX residual_;
   VectorX x_;
   NewtonProgress progress_;

@@ -6,6 +6,7 @@
 #include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -52,18 +53,15 @@ void clear(SystemState& carry) {
 RungeKutta4::RungeKutta4(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
-      accelerations_(make_accelerations(model)),
       flows_(make_flows(model)),
-      theta_(model.bodies.size(), Vector3::Zero()),
+      moved_(make_unknowns(model)),
+      v_(moved_),
+      work_(moved_),
       stage_(make_state(model)),
       left_(make_state(model)),
       carry_(make_state(model)) {
   clear(carry_);
-  const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
-  const VectorX modes = VectorX::Zero(model.modal_count);
-  const VectorX nodes = VectorX::Zero(model.nodal_count);
-  const VectorX elements = VectorX::Zero(model.maxwell_count);
-  slopes_.fill({zero, zero, zero, zero, modes, modes, elements, nodes, nodes});
+  slopes_.fill({moved_, moved_, VectorX::Zero(model.maxwell_count)});
 }
 
 void RungeKutta4::exchange_memory(Archive& archive, const SystemState& state) {
@@ -71,82 +69,77 @@ void RungeKutta4::exchange_memory(Archive& archive, const SystemState& state) {
   if (archive.reads()) left_ = state;
 }
 
-void RungeKutta4::calc_slope(const SystemState& at,
-                             const std::vector<Vector3>& theta, Side side,
-                             Slope& slope) {
+void RungeKutta4::calc_slope(const SystemState& at, Side side, Slope& slope) {
   calc_terms(model_, at, side, terms_);
-  solve_accelerations(model_, terms_, accelerations_);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    slope.pdot[b] = at.bodies[b].v_WB_W;
-    slope.thetadot[b] = right_jacobian_inverse(theta[b]) * at.bodies[b].w_WB_B;
-    slope.vdot[b] = accelerations_.a_WB_W[b];
-    slope.wdot[b] = accelerations_.dw_WB_B[b];
-  }
-  slope.etadot = at.etadot;
-  slope.etaddot = accelerations_.etaddot;
+  solve_accelerations(model_, terms_, slope.acceleration);
+  get_velocities(model_, at, slope.motion);
   for (const BodyModel& body : model_.bodies) {
+    const Vector3 w = rotation_rows(body, slope.motion);
+    const Vector3 theta = rotation_rows(body, moved_);
+    rotation_rows(body, slope.motion) = right_jacobian_inverse(theta) * w;
     for (Eigen::Index j = 0; j < body.maxwell.size(); ++j) {
-      maxwell_of(body, slope.maxwelldot).col(j) =
+      maxwell_of(body, slope.maxwell).col(j) =
           maxwell_of(body, at.maxwell).col(j) / -body.maxwell.times[j];
     }
   }
-  stretch_maxwell(model_, at.etadot, 1.0, slope.maxwelldot);
-  slope.udot_H = at.udot_H;
-  slope.uddot_H = accelerations_.uddot_H;
+  stretch_maxwell(model_, slope.motion, 1.0, slope.maxwell);
 }
 
 void RungeKutta4::displace(const SystemState& from, const Slope& slope,
                            double h, double t) {
   stage_.t = t;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyState& old = from.bodies[b];
-    BodyState& body = stage_.bodies[b];
-    theta_[b] = h * slope.thetadot[b];
-    body.p_WB = old.p_WB + h * slope.pdot[b];
-    body.quat_WB = old.quat_WB * exp_quaternion(theta_[b]);
-    body.v_WB_W = old.v_WB_W + h * slope.vdot[b];
-    body.w_WB_B = old.w_WB_B + h * slope.wdot[b];
-  }
-  stage_.eta = from.eta + h * slope.etadot;
-  stage_.etadot = from.etadot + h * slope.etaddot;
-  stage_.maxwell = from.maxwell + h * slope.maxwelldot;
+  stage_.bodies = from.bodies;
+  stage_.eta = from.eta;
   stage_.X_WH = from.X_WH;
-  stage_.u_H = from.u_H + h * slope.udot_H;
-  stage_.udot_H = from.udot_H + h * slope.uddot_H;
+  stage_.u_H = from.u_H;
+  moved_ = h * slope.motion;
+  dynamics::displace(model_, moved_, 1.0, stage_);
+  work_ = v_ + h * slope.acceleration;
+  set_velocities(model_, work_, stage_);
+  stage_.maxwell = from.maxwell + h * slope.maxwell;
 }
 
 void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
                           double t) {
   stage_.t = t;
+  stage_.X_WH = from.X_WH;
+  moved_ = h * slope.motion;
+  work_ = h * slope.acceleration;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& model = model_.bodies[b];
     const BodyState& old = from.bodies[b];
     const BodyState& left = left_.bodies[b];
     BodyState& carry = carry_.bodies[b];
     BodyState& body = stage_.bodies[b];
-    add(old.p_WB, left.p_WB, Vector3(h * slope.pdot[b]), carry.p_WB, body.p_WB);
+    add(old.p_WB, left.p_WB, translation_rows(model, moved_), carry.p_WB,
+        body.p_WB);
     add(old.quat_WB.coeffs(), left.quat_WB.coeffs(),
-        find_turn(old.quat_WB, h * slope.thetadot[b]), carry.quat_WB.coeffs(),
-        body.quat_WB.coeffs());
-    add(old.v_WB_W, left.v_WB_W, Vector3(h * slope.vdot[b]), carry.v_WB_W,
+        find_turn(old.quat_WB, rotation_rows(model, moved_)),
+        carry.quat_WB.coeffs(), body.quat_WB.coeffs());
+    add(old.v_WB_W, left.v_WB_W, translation_rows(model, work_), carry.v_WB_W,
         body.v_WB_W);
-    add(old.w_WB_B, left.w_WB_B, Vector3(h * slope.wdot[b]), carry.w_WB_B,
+    add(old.w_WB_B, left.w_WB_B, rotation_rows(model, work_), carry.w_WB_B,
         body.w_WB_B);
+    const auto modes = [&model](auto& all) {
+      return all.segment(model.offset, model.modes);
+    };
+    add(modes(from.eta), modes(left_.eta), mode_rows(model, moved_),
+        modes(carry_.eta), modes(stage_.eta));
+    add(modes(from.etadot), modes(left_.etadot), mode_rows(model, work_),
+        modes(carry_.etadot), modes(stage_.etadot));
   }
-  add(from.eta, left_.eta, h * slope.etadot, carry_.eta, stage_.eta);
-  add(from.etadot, left_.etadot, h * slope.etaddot, carry_.etadot,
-      stage_.etadot);
-  add(from.maxwell, left_.maxwell, h * slope.maxwelldot, carry_.maxwell,
+  add(from.maxwell, left_.maxwell, h * slope.maxwell, carry_.maxwell,
       stage_.maxwell);
-  stage_.X_WH = from.X_WH;
-  add(from.u_H, left_.u_H, h * slope.udot_H, carry_.u_H, stage_.u_H);
-  add(from.udot_H, left_.udot_H, h * slope.uddot_H, carry_.udot_H,
+  add(from.u_H, left_.u_H, nodal_rows(model_, moved_), carry_.u_H, stage_.u_H);
+  add(from.udot_H, left_.udot_H, nodal_rows(model_, work_), carry_.udot_H,
       stage_.udot_H);
 }
 
 StepResult RungeKutta4::step(SystemState& state, double h, double end) {
-  for (Vector3& theta : theta_) theta.setZero();
+  moved_.setZero();
+  get_velocities(model_, state, v_);
   copy_step_constants(state, stage_);
-  calc_slope(state, theta_, Side::right, slopes_[0]);
+  calc_slope(state, Side::right, slopes_[0]);
   flows_.clear();
   add_powers(terms_, h / 6.0, flows_);
   const std::array<double, 3> shares = {0.5, 0.5, 1.0};
@@ -154,26 +147,13 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
     const bool at_end = s == 2;
     displace(state, slopes_[s], shares[s] * h,
              at_end ? end : state.t + shares[s] * h);
-    calc_slope(stage_, theta_, at_end ? Side::left : Side::right,
-               slopes_[s + 1]);
+    calc_slope(stage_, at_end ? Side::left : Side::right, slopes_[s + 1]);
     add_powers(terms_, (at_end ? 1.0 : 2.0) * h / 6.0, flows_);
   }
   // The weighted mean of the slopes, gathered in the first.
   auto& k = slopes_;
-  const auto mean = [&](auto member) {
-    auto& sum = k[0].*member;
-    for (std::size_t b = 0; b < sum.size(); ++b) {
-      sum[b] = (sum[b] + 2.0 * (k[1].*member)[b] + 2.0 * (k[2].*member)[b] +
-                (k[3].*member)[b]) /
-               6.0;
-    }
-  };
-  mean(&Slope::pdot);
-  mean(&Slope::thetadot);
-  mean(&Slope::vdot);
-  mean(&Slope::wdot);
-  for (const auto member : {&Slope::etadot, &Slope::etaddot, &Slope::maxwelldot,
-                            &Slope::udot_H, &Slope::uddot_H}) {
+  for (const auto member :
+       {&Slope::motion, &Slope::acceleration, &Slope::maxwell}) {
     VectorX& sum = k[0].*member;
     sum += 2.0 * k[1].*member + 2.0 * k[2].*member + k[3].*member;
     sum /= 6.0;

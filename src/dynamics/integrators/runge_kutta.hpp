@@ -28,22 +28,22 @@ class RungeKutta4 final : public Integrator {
 
  private:
   struct Slope {
-    std::vector<Vector3> pdot, thetadot, vdot, wdot;
-    VectorX etadot, etaddot, maxwelldot;
-    VectorX udot_H, uddot_H;  // of unreduced bodies
+    VectorX motion;  // of rotations since the step's start, and of velocities
+    VectorX acceleration;
+    VectorX maxwell;
   };
-  void calc_slope(const SystemState& at, const std::vector<Vector3>& theta,
-                  Side side, Slope& slope);
+  void calc_slope(const SystemState& at, Side side, Slope& slope);
   void displace(const SystemState& from, const Slope& slope, double h,
                 double t);
   void advance(const SystemState& from, const Slope& slope, double h, double t);
 
   const SystemModel& model_;
   SystemTerms terms_;
-  Accelerations accelerations_;
   EnergyFlows flows_;
   std::array<Slope, 4> slopes_;
-  std::vector<Vector3> theta_;  // rotation since the step's start
+  VectorX moved_;  // since the step's start
+  VectorX v_;      // velocities there
+  VectorX work_;
   SystemState stage_;
   // The state after the last step, and the round-off of its sums. The carry of
   // a value that the caller has changed since is discarded.

@@ -4,13 +4,14 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 
 Splitting::Splitting(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
-      kick_(make_accelerations(model)),
+      kick_(make_unknowns(model)),
       next_(make_state(model)),
       middle_(make_state(model)),
       flows_(make_flows(model)),
@@ -32,15 +33,20 @@ void Splitting::drift(SystemState& state) {
 void Splitting::calc_kick() {
   calc_terms(model_, middle_, Side::right, terms_);
   solve_accelerations(model_, terms_, kick_);
-  modes_.add_own_forces(middle_, kick_.etaddot);
+  modes_.add_own_forces(middle_, kick_);
 }
 
 void Splitting::kick(const SystemState& from, double h, SystemState& to) const {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    to.bodies[b].v_WB_W = from.bodies[b].v_WB_W + h * kick_.a_WB_W[b];
-    to.bodies[b].w_WB_B = from.bodies[b].w_WB_B + h * kick_.dw_WB_B[b];
+    const BodyModel& body = model_.bodies[b];
+    to.bodies[b].v_WB_W =
+        from.bodies[b].v_WB_W + h * translation_rows(body, kick_);
+    to.bodies[b].w_WB_B =
+        from.bodies[b].w_WB_B + h * rotation_rows(body, kick_);
+    to.etadot.segment(body.offset, body.modes) =
+        from.etadot.segment(body.offset, body.modes) +
+        h * mode_rows(body, kick_);
   }
-  to.etadot = from.etadot + h * kick_.etaddot;
 }
 
 StepResult Splitting::step(SystemState& state, double h, double end) {

@@ -44,7 +44,7 @@ class Splitting final : public Integrator {
 
   const SystemModel& model_;
   SystemTerms terms_;
-  Accelerations kick_;  // without the modes' own springs and dampers
+  VectorX kick_;  // without the modes' own springs and dampers
   SystemState next_;
   SystemState middle_;
   EnergyFlows flows_;

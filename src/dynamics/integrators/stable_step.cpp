@@ -10,26 +10,30 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 // A change of positions or of velocities, or of the accelerations by it.
-using Change = Accelerations;
+using Change = VectorX;
 
 template <typename Visit>
 void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].has_rigid_motion()) continue;
-    const double mass = std::sqrt(model.bodies[b].mass);
-    const double inertia = std::sqrt(model.bodies[b].J0.trace() / 3.0);
-    visit(x.a_WB_W[b].data(), 3, mass);
-    visit(x.dw_WB_B[b].data(), 3, inertia);
+    const BodyModel& body = model.bodies[b];
+    if (!body.has_rigid_motion()) continue;
+    const double mass = std::sqrt(body.mass);
+    const double inertia = std::sqrt(body.J0.trace() / 3.0);
+    visit(x.data() + body.row, 3, mass);
+    visit(x.data() + body.row + 3, 3, inertia);
   }
-  visit(x.etaddot.data(), x.etaddot.size(), 1.0);
+  for (const BodyModel& body : model.bodies) {
+    visit(x.data() + body.row + 6, body.modes, 1.0);
+  }
   for (const FullModel& full : model.full_bodies) {
     const double mass = full.mesh->node_mass.sum();
-    visit(x.uddot_H.data() + full.first, full.dofs(),
+    visit(x.data() + first_node_row(model) + full.first, full.dofs(),
           std::sqrt(3.0 * mass / static_cast<double>(full.dofs())));
   }
 }
@@ -52,14 +56,14 @@ void scale(const SystemModel& model, Change& x, double factor) {
 // Square of a body's part of the mass-weighted norm.
 double measure_part(const SystemModel& model, const Change& x, std::size_t b) {
   const BodyModel& body = model.bodies[b];
-  double part = body.mass * x.a_WB_W[b].squaredNorm() +
-                body.J0.trace() / 3.0 * x.dw_WB_B[b].squaredNorm() +
-                x.etaddot.segment(body.offset, body.modes).squaredNorm();
+  double part = body.mass * translation_rows(body, x).squaredNorm() +
+                body.J0.trace() / 3.0 * rotation_rows(body, x).squaredNorm() +
+                mode_rows(body, x).squaredNorm();
   if (body.full >= 0) {
     const FullModel& full =
         model.full_bodies[static_cast<std::size_t>(body.full)];
     part += full.mesh->node_mass.sum() *
-            x.uddot_H.segment(full.first, full.dofs()).squaredNorm() /
+            nodal_rows(model, full, x).squaredNorm() /
             static_cast<double>(full.dofs());
   }
   return part;
@@ -87,10 +91,12 @@ class Iteration {
         state_(state),
         displaced_(state),
         terms_(make_terms(model)),
-        x_(make_accelerations(model)),
-        rest_(make_accelerations(model)),
+        x_(make_unknowns(model)),
+        rest_(x_),
+        v_(x_),
         has_modes_(has_modes) {
     find_accelerations(state_, rest_);
+    get_velocities(model_, state_, v_);
   }
 
   // Largest eigenvalue of -d(acceleration)/d(position).
@@ -149,7 +155,7 @@ class Iteration {
       const auto of_body = [&](const VectorX& x) {
         return x.segment(body.offset, body.modes).array();
       };
-      accelerations.etaddot.segment(body.offset, body.modes).array() +=
+      mode_rows(body, accelerations).array() +=
           flexbody::rest_stiffness(body.elasticity).array() * of_body(at.eta) +
           body.damping.array() * of_body(at.etadot);
     }
@@ -159,34 +165,15 @@ class Iteration {
   void apply(double rate) {
     const bool of_velocity = rate > 0.0;
     const double e = (of_velocity ? rate : 1.0) * find_increment(model_, x_);
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyState& from = state_.bodies[b];
-      BodyState& body = displaced_.bodies[b];
-      if (!model_.bodies[b].has_rigid_motion()) continue;
-      if (of_velocity) {
-        body.v_WB_W = from.v_WB_W + e * x_.a_WB_W[b];
-        body.w_WB_B = from.w_WB_B + e * x_.dw_WB_B[b];
-      } else {
-        body.p_WB = from.p_WB + e * x_.a_WB_W[b];
-        body.quat_WB = from.quat_WB * exp_quaternion(e * x_.dw_WB_B[b]);
-      }
-    }
     if (of_velocity) {
-      displaced_.etadot = state_.etadot + e * x_.etaddot;
-      displaced_.udot_H = state_.udot_H + e * x_.uddot_H;
+      set_velocities(model_, v_ + e * x_, displaced_);
     } else {
-      displaced_.eta = state_.eta + e * x_.etaddot;
-      displaced_.maxwell = state_.maxwell;
-      stretch_maxwell(model_, x_.etaddot, e, displaced_.maxwell);
-      displaced_.u_H = state_.u_H + e * x_.uddot_H;
+      displaced_ = state_;
+      displace(model_, x_, e, displaced_);
+      stretch_maxwell(model_, x_, e, displaced_.maxwell);
     }
     find_accelerations(displaced_, x_);
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      x_.a_WB_W[b] = (rest_.a_WB_W[b] - x_.a_WB_W[b]) / e;
-      x_.dw_WB_B[b] = (rest_.dw_WB_B[b] - x_.dw_WB_B[b]) / e;
-    }
-    x_.etaddot = (rest_.etaddot - x_.etaddot) / e;
-    x_.uddot_H = (rest_.uddot_H - x_.uddot_H) / e;
+    x_ = (rest_ - x_) / e;
   }
 
   const SystemModel& model_;
@@ -195,6 +182,7 @@ class Iteration {
   SystemTerms terms_;
   Change x_;
   Change rest_;
+  VectorX v_;  // of state_
   bool has_modes_;
 };
 

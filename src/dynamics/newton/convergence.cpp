@@ -66,7 +66,7 @@ NewtonProgress::NewtonProgress(const SystemModel& model)
       roundoffs_(groups_.count()),
       motions_(groups_.count()) {}
 
-void NewtonProgress::start(const SystemState& end, const Rates& motion) {
+void NewtonProgress::start(const SystemState& end, const VectorX& motion) {
   is_compared_ = false;
   measure_roundoff(model_, groups_, end, motion, roundoffs_);
   for (std::size_t g = 0; g < progress_.size(); ++g) {
@@ -96,7 +96,7 @@ void NewtonProgress::include(const VectorX& increments, bool compares) {
 
 void NewtonProgress::measure_motion(const SystemState& state,
                                     const SystemTerms& terms,
-                                    const Rates& motion) {
+                                    const VectorX& motion) {
   groups_.measure_motion(model_, state, terms, motion, motions_);
   for (std::size_t g = 0; g < progress_.size(); ++g) {
     progress_[g].motion = motions_[g];

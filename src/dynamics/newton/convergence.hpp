@@ -77,14 +77,14 @@ class NewtonProgress {
   explicit NewtonProgress(const SystemModel& model);
 
   /// Begins a step, at its predicted end.
-  void start(const SystemState& end, const Rates& motion);
+  void start(const SystemState& end, const VectorX& motion);
   /// Measures a correction.
   /// @param compares with the one before, if that was to be compared, too;
   /// else reversals are zero
   void include(const VectorX& increments, bool compares);
   /// Measures the step's motion. @param as MotionGroups::measure_motion
   void measure_motion(const SystemState& state, const SystemTerms& terms,
-                      const Rates& motion);
+                      const VectorX& motion);
   /// Adds what round-off elsewhere does, given as increments.
   void add_roundoff(const VectorX& increments);
 

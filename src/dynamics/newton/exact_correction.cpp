@@ -23,7 +23,7 @@ template <typename Visit>
 void for_each_part(const SystemModel& model, Visit visit) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    visit(b, first_row(body, b), 6 + body.modes);
+    visit(b, body.row, 6 + body.modes);
     if (body.full < 0) continue;
     const FullModel& full = model.full_bodies[index(body.full)];
     visit(b, first_node_row(model) + full.first, full.dofs());
@@ -62,7 +62,7 @@ VectorX ExactCorrection::find_weights(const SystemTerms& terms,
 void ExactCorrection::solve(const Point& point, const VectorX& residual,
                             NewtonMatrix& matrix, VectorX& increments) {
   derivative_.set_point(point.state, point.terms, point.acceleration,
-                        point.rotation_increments, point.coefficients);
+                        point.motion, point.coefficients);
   VectorX rest;
   std::vector<Vector6> laws;
   VectorX solved;

@@ -24,8 +24,8 @@ class ExactCorrection {
   struct Point {
     const SystemState& state;
     const SystemTerms& terms;
-    const Rates& acceleration;
-    const std::vector<Vector3>& rotation_increments;  ///< [rad]
+    const VectorX& acceleration;
+    const VectorX& motion;
     const NewtonMatrix::Coefficients& coefficients;
   };
 

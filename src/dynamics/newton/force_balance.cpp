@@ -143,47 +143,11 @@ SystemState stop(const SystemState& state) {
   return rest;
 }
 
-void displace(const SystemModel& model, const VectorX& increments, double share,
-              SystemState& state) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model.bodies[b], b);
-    state.eta.segment(body.offset, body.modes) +=
-        share * increments.segment(row + 6, body.modes);
-    if (!body.has_rigid_motion()) continue;
-    BodyState& rigid = state.bodies[b];
-    rigid.p_WB += share * increments.segment<3>(row);
-    const Vector3 turn = share * increments.segment<3>(row + 3);
-    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(turn)).normalized();
-  }
-  state.u_H += share * increments.tail(model.nodal_count);
-}
-
-VectorX find_increments(const SystemModel& model, const SystemState& from,
-                        const SystemState& to) {
-  VectorX increments = VectorX::Zero(count_unknowns(model));
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model.bodies[b], b);
-    increments.segment(row + 6, body.modes) =
-        to.eta.segment(body.offset, body.modes) -
-        from.eta.segment(body.offset, body.modes);
-    if (!body.has_rigid_motion()) continue;
-    const BodyState& a = from.bodies[b];
-    const BodyState& z = to.bodies[b];
-    increments.segment<3>(row) = z.p_WB - a.p_WB;
-    increments.segment<3>(row + 3) =
-        log_rotation((a.quat_WB.conjugate() * z.quat_WB).toRotationMatrix());
-  }
-  increments.tail(model.nodal_count) = to.u_H - from.u_H;
-  return increments;
-}
-
 VectorX find_length_weights(const SystemModel& model) {
-  VectorX weights = VectorX::Zero(count_unknowns(model));
+  VectorX weights = make_unknowns(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model.bodies[b], b);
+    const Eigen::Index row = model.bodies[b].row;
     weights.segment<3>(row).setConstant(std::sqrt(body.mass));
     weights.segment<3>(row + 3).setConstant(std::sqrt(body.mass) *
                                             radius_of_gyration(body));

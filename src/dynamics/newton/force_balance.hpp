@@ -9,17 +9,6 @@ namespace limber::dynamics {
 /// The same configuration without velocities.
 [[nodiscard]] SystemState stop(const SystemState& state);
 
-/// Moves a configuration by the fraction `share` [-] of increments as in
-/// NewtonMatrix: translation in the world frame, rotation in the body frame,
-/// modes, nodes.
-void displace(const SystemModel& model, const VectorX& increments, double share,
-              SystemState& state);
-
-/// The increments that displace `from` to `to`, of the same model.
-[[nodiscard]] VectorX find_increments(const SystemModel& model,
-                                      const SystemState& from,
-                                      const SystemState& to);
-
 /// Weights of increments, such that the weighted norm is their length times the
 /// root of the mass: of places [kg^1/2], of rotations [kg^1/2 m], of modes [-].
 ///

@@ -36,7 +36,7 @@ std::vector<char> find_joined(const SystemModel& model) {
 // Of increments of a body in its own axes.
 Vector6 find_motion(const SystemModel& model, const SystemTerms& terms,
                     BodyIndex b, const VectorX& increments) {
-  const Eigen::Index row = first_row(model.bodies[index(b)], index(b));
+  const Eigen::Index row = model.bodies[index(b)].row;
   Vector6 motion = increments.segment<6>(row);
   motion.head<3>() =
       terms.bodies[index(b)].R_WB.transpose() * increments.segment<3>(row);
@@ -50,10 +50,9 @@ JointMobility::JointMobility(const SystemModel& model)
   if (std::count(is_joined_.begin(), is_joined_.end(), 1) == 0) return;
   terms_ = make_terms(model);
   matrix_ = NewtonMatrix(model);
-  no_rotations_.assign(model.bodies.size(), Vector3::Zero());
   no_gaps_.assign(model.couplers.size() + model.transmissions.size(),
                   Vector6::Zero());
-  residual_ = increments_ = VectorX::Zero(count_unknowns(model));
+  no_motion_ = residual_ = increments_ = make_unknowns(model);
 }
 
 joints::PairMobility JointMobility::find(const SystemModel& model,
@@ -64,7 +63,7 @@ joints::PairMobility JointMobility::find(const SystemModel& model,
     response.clear();
   }
   const double square = frequency * frequency;
-  matrix_.factor(model, state, terms_, no_rotations_, {square, frequency});
+  matrix_.factor(model, state, terms_, no_motion_, {square, frequency});
   const BodyIndex bodies[] = {model.pairs[pair].body_A,
                               model.pairs[pair].body_B};
   joints::PairMobility Y = joints::PairMobility::Zero();
@@ -74,7 +73,7 @@ joints::PairMobility JointMobility::find(const SystemModel& model,
     Vector6 load = Vector6::Unit(i % 6);
     load.head<3>() = terms_.bodies[index(b)].R_WB * load.head<3>().eval();
     residual_.setZero();
-    residual_.segment<6>(first_row(model.bodies[index(b)], index(b))) = -load;
+    residual_.segment<6>(model.bodies[index(b)].row) = -load;
     matrix_.solve(model, terms_, residual_, no_gaps_, increments_);
     for (int k = 0; k < 2; ++k) {
       if (bodies[k] == kWorld) continue;

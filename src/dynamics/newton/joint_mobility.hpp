@@ -37,7 +37,7 @@ class JointMobility {
   std::vector<char> is_joined_;  // of pairs
   SystemTerms terms_;
   NewtonMatrix matrix_;
-  std::vector<Vector3> no_rotations_;
+  VectorX no_motion_;
   std::vector<Vector6> no_gaps_;
   VectorX residual_;
   VectorX increments_;

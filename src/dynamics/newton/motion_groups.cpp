@@ -5,39 +5,39 @@
 #include <cmath>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 // A body's translation in the world's axes.
 Vector3 find_translation(const SystemModel& model, const SystemState& state,
-                         const Rates& motion, std::size_t b) {
+                         const VectorX& motion, std::size_t b) {
   const BodyModel& body = model.bodies[b];
-  if (body.full < 0) return motion.translation[b];
+  if (body.full < 0) return translation_rows(body, motion);
   const FullModel& full = model.full_bodies[index(body.full)];
   return state.X_WH[index(body.full)].R *
-         nodes_of(full, motion.nodes).rowwise().mean();
+         nodal_rows(model, full, motion).rowwise().mean();
 }
 
 // The square of a body's motion relative to a translation [m^2].
 double measure_squared(const SystemModel& model, const SystemState& state,
-                       const Rates& motion, std::size_t b,
+                       const VectorX& motion, std::size_t b,
                        const Vector3& translation) {
   const BodyModel& body = model.bodies[b];
-  const double modal =
-      motion.modes.segment(body.offset, body.modes).squaredNorm() / body.mass;
+  const double modal = mode_rows(body, motion).squaredNorm() / body.mass;
   if (body.full >= 0) {
     const Vector3 translation_H =
         state.X_WH[index(body.full)].R.transpose() * translation;
     const ConstNodes u_H =
-        nodes_of(model.full_bodies[index(body.full)], motion.nodes);
+        nodal_rows(model, model.full_bodies[index(body.full)], motion);
     return modal + (u_H.colwise() - translation_H).squaredNorm() /
                        static_cast<double>(u_H.cols());
   }
-  return modal + (motion.translation[b] - translation).squaredNorm() +
-         0.5 * body.J0.trace() / body.mass * motion.rotation[b].squaredNorm();
+  return modal + (translation_rows(body, motion) - translation).squaredNorm() +
+         0.5 * body.J0.trace() / body.mass *
+             rotation_rows(body, motion).squaredNorm();
 }
 
 }  // namespace
@@ -79,7 +79,8 @@ void MotionGroups::join_touching(const SystemModel& model,
 
 void MotionGroups::measure_motion(const SystemModel& model,
                                   const SystemState& state,
-                                  const SystemTerms& terms, const Rates& motion,
+                                  const SystemTerms& terms,
+                                  const VectorX& motion,
                                   std::vector<double>& lengths) {
   join_touching(model, terms);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
 
@@ -36,7 +36,7 @@ class MotionGroups {
   /// @param state with X_WH of unreduced bodies
   /// @param terms as of join_touching
   void measure_motion(const SystemModel& model, const SystemState& state,
-                      const SystemTerms& terms, const Rates& motion,
+                      const SystemTerms& terms, const VectorX& motion,
                       std::vector<double>& lengths);
 
  private:

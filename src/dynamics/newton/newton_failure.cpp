@@ -41,10 +41,7 @@ std::string describe_mode(const NewtonFailure& f) {
   const BodyModel& body = f.model.bodies[f.correction.body];
   if (body.modes == 0) return {};
   Eigen::Index mode = 0;
-  f.increments
-      .segment(first_row(body, index(f.correction.body)) + 6, body.modes)
-      .cwiseAbs()
-      .maxCoeff(&mode);
+  f.increments.segment(body.row + 6, body.modes).cwiseAbs().maxCoeff(&mode);
   return fmt::format(
       "mode {} of it, of {:.3g} Hz, moves most; a smaller step, or damping of "
       "that mode, may help",

@@ -85,7 +85,7 @@ void NewtonMatrix::add_end(const SystemModel& model, int link,
           .attachment = attachment,
           .body = b,
           .is_M = is_M,
-          .row = first_row(body, index(b)),
+          .row = body.row,
           .G = Matrix6X::Zero(6, 6 + body.modes)};
   if (body.full >= 0) {
     const FullModel& full = model.full_bodies[index(body.full)];
@@ -291,8 +291,7 @@ std::string NewtonMatrix::describe_singular(const SystemModel& model,
 }
 
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
-                          SystemTerms& terms,
-                          const std::vector<Vector3>& rotation_increments,
+                          SystemTerms& terms, const VectorX& motion,
                           const Coefficients& coefficients, bool renews_full,
                           const SystemTerms* end_terms) {
   if (end_terms == nullptr) calc_stiffness(model, state, terms);
@@ -301,7 +300,7 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
     unknowns_.resize(index(plan_.rows));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Vector3& turn = rotation_increments[b];
+    const Vector3 turn = rotation_rows(model.bodies[b], motion);
     bodies_[b].update(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
                       end_terms != nullptr ? cayley_jacobian_inverse(turn)
                                            : right_jacobian_inverse(turn),
@@ -345,7 +344,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (plan_.kept_of_body[b] >= 0) continue;
-    bodies_[b].solve(increments.data() + first_row(model.bodies[b], b));
+    bodies_[b].solve(increments.data() + model.bodies[b].row);
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
@@ -368,8 +367,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   }
   const auto for_kept = [&](const auto& visit) {
     for (const KeptBody& kept : plan_.kept) {
-      double* x = increments.data() +
-                  first_row(model.bodies[index(kept.body)], index(kept.body));
+      double* x = increments.data() + model.bodies[index(kept.body)].row;
       for (int k = 0; k < kept.size; ++k) {
         visit(unknowns_[index(kept.first + k / 6)][k % 6], x[k]);
       }

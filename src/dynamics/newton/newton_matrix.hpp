@@ -57,17 +57,16 @@ class NewtonMatrix {
   /// per increment.
   using Coefficients = FullFactor::Coefficients;
 
-  /// Factors at the evaluated `terms`; `rotation_increments` are the step's,
-  /// one per body [rad]. Unreduced bodies keep their sparse factors, in the
+  /// Factors at the evaluated `terms`; `motion` is the step's, whose rotations
+  /// count [rad]. Unreduced bodies keep their sparse factors, in the
   /// body frame, until the acceleration coefficient changes or `renews_full` is
   /// set.
   /// @throws NumericalError naming the coupler or body.
   /// @param end_terms where couplers are evaluated, if wrenches act elsewhere,
-  /// at `terms` (no bodies at level `full` then); rotation increments are then
+  /// at `terms` (no bodies at level `full` then); the step's rotations are then
   /// those of Cayley's transform, and BodyTerms::stiffness is that of `terms`
   void factor(const SystemModel& model, const SystemState& state,
-              SystemTerms& terms,
-              const std::vector<Vector3>& rotation_increments,
+              SystemTerms& terms, const VectorX& motion,
               const Coefficients& coefficients, bool renews_full = false,
               const SystemTerms* end_terms = nullptr);
 

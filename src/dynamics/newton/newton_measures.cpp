@@ -45,7 +45,7 @@ void measure_correction(const SystemModel& model, const MotionGroups& groups,
   sizes.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const double* x = increments.data() + first_row(body, b);
+    const double* x = increments.data() + body.row;
     const double rigid =
         Eigen::Map<const Vector3>(x).squaredNorm() +
         radius_of_gyration_squared(body) *
@@ -86,7 +86,7 @@ void measure_reversal(const SystemModel& model, const MotionGroups& groups,
       sum.now += weight * x.squaredNorm();
       sum.before += weight * y.squaredNorm();
     };
-    const Eigen::Index row = first_row(body, b);
+    const Eigen::Index row = body.row;
     add(body.mass, row, 3);
     add(body.mass * radius_of_gyration_squared(body), row + 3, 3);
     add(1.0, row + 6, body.modes);
@@ -98,7 +98,7 @@ void measure_reversal(const SystemModel& model, const MotionGroups& groups,
 }
 
 void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
-                      const SystemState& state, const Rates& motion,
+                      const SystemState& state, const VectorX& motion,
                       std::vector<Roundoff>& roundoffs) {
   roundoffs.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -111,7 +111,7 @@ void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
     } else {
       reach += state.bodies[b].p_WB.squaredNorm();
     }
-    const double step = kRoundoff * motion.translation[b].norm();
+    const double step = kRoundoff * translation_rows(body, motion).norm();
     const double bend =
         state.eta.segment(body.offset, body.modes).squaredNorm() / body.mass;
     largest.step = std::max(largest.step, step);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/motion_groups.hpp"
 
 /// Lengths for the convergence tests of Newton's method in a time step:
@@ -54,7 +54,7 @@ struct Roundoff {
 };
 /// Of the coordinates themselves.
 void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
-                      const SystemState& state, const Rates& motion,
+                      const SystemState& state, const VectorX& motion,
                       std::vector<Roundoff>& roundoffs);
 
 /// Raises that of bodies in contact, in which rotations and small gaps are

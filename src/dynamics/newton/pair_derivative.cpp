@@ -56,12 +56,12 @@ ResidualDerivative::PlaceChange ResidualDerivative::change_place(
     change.v = c_.velocity * change.p;
     return change;
   }
-  const BodyIncrement d(body, index(b), x);
+  const BodyIncrement d(body, x);
   const Matrix3& R = terms_->bodies[index(b)].R_WB;
   const Vector3& w = state_->bodies[index(b)].w_WB_B;
   const Vector3 d_w =
       c_.velocity *
-      (right_jacobian_inverse((*rotation_increments_)[index(b)]) * d.theta);
+      (right_jacobian_inverse(rotation_rows(body, *motion_)) * d.theta);
   Vector3 v_B = w.cross(arm_B);
   Vector3 d_udot = Vector3::Zero();  // by the products' change
   if (body.modes > 0) {
@@ -98,11 +98,11 @@ void ResidualDerivative::change_force(
     }
     return;
   }
-  const BodyIncrement d(body, index(b), x);
+  const BodyIncrement d(body, x);
   const Matrix3 R_BW = terms_->bodies[index(b)].R_WB.transpose();
   const Vector3 force_B = R_BW * force;
   const Vector3 d_force_B = R_BW * d_force - d.theta.cross(force_B);
-  const Eigen::Index row = first_row(body, index(b));
+  const Eigen::Index row = body.row;
   add_modal_residual(body, place, state_->eta.data() + body.offset, d_force_B,
                      r.data() + row + 6);
   if (!body.has_rigid_motion()) return;

@@ -48,12 +48,12 @@ ResidualDerivative::ResidualDerivative(const SystemModel& model)
 
 void ResidualDerivative::set_point(
     const SystemState& state, const SystemTerms& terms,
-    const Rates& acceleration, const std::vector<Vector3>& rotation_increments,
+    const VectorX& acceleration, const VectorX& motion,
     const NewtonMatrix::Coefficients& coefficients) {
   state_ = &state;
   terms_ = &terms;
   acceleration_ = &acceleration;
-  rotation_increments_ = &rotation_increments;
+  motion_ = &motion;
   c_ = coefficients;
 }
 
@@ -64,14 +64,14 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   const BodyModel& body = model_.bodies[b];
   if (body.modes == 0 || !body.has_rigid_motion()) return;
   const BodyTerms& t = terms_->bodies[b];
-  const BodyIncrement d(body, b, x);
+  const BodyIncrement d(body, x);
   const Vector3& w = state_->bodies[b].w_WB_B;
-  const Vector3& wdot = acceleration_->rotation[b];
+  const Vector3 wdot = rotation_rows(body, *acceleration_);
   const Vector3 d_w =
       c_.velocity *
-      (right_jacobian_inverse((*rotation_increments_)[b]) * d.theta);
+      (right_jacobian_inverse(rotation_rows(body, *motion_)) * d.theta);
   const Vector6 d_w_squared = change_half_square(w, d_w);
-  auto r_modes = r.segment(first_row(body, b) + 6, body.modes);
+  auto r_modes = r.segment(body.row + 6, body.modes);
   if (body.fidelity == Fidelity::one_way) {
     r_modes -= body.inertia->J1.transpose() * d_w_squared;
   }
@@ -79,7 +79,7 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
 
   const Eigen::Map<const VectorX> d_eta(d.eta, body.modes);
   const double* etadot = state_->etadot.data() + body.offset;
-  const double* etaddot = acceleration_->modes.data() + body.offset;
+  const double* etaddot = acceleration_->data() + body.row + 6;
   const VectorX d_J2 = body.inertia->J2 * d_eta;
   const VectorX d_beta = body.inertia->beta * d_eta;
   const Vector6 w_squared = half_square(w);
@@ -107,10 +107,10 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
                   w_squared.dot(d_J_k);
   }
   const Matrix3 d_inertia = unpack_symmetric(d_J);
-  r.segment<3>(first_row(body, b) + 3) +=
-      d_inertia * wdot + d_H_etaddot + unpack_symmetric(d_Jdot) * w +
-      unpack_symmetric(Jdot) * d_w + d_w.cross(h) +
-      w.cross(d_inertia * w + d_h);
+  r.segment<3>(body.row + 3) += d_inertia * wdot + d_H_etaddot +
+                                unpack_symmetric(d_Jdot) * w +
+                                unpack_symmetric(Jdot) * d_w + d_w.cross(h) +
+                                w.cross(d_inertia * w + d_h);
 }
 
 ResidualDerivative::FrameChange ResidualDerivative::change_frame(
@@ -120,12 +120,12 @@ ResidualDerivative::FrameChange ResidualDerivative::change_frame(
   if (attachment.body == kWorld) return change;
   const auto b = index(attachment.body);
   const BodyModel& body = model_.bodies[b];
-  const BodyIncrement d(body, b, x);
+  const BodyIncrement d(body, x);
   const Matrix3& R = motion.R_WB;
   const Vector3& w = state_->bodies[b].w_WB_B;
   const Vector3 d_w =
       c_.velocity *
-      (right_jacobian_inverse((*rotation_increments_)[b]) * d.theta);
+      (right_jacobian_inverse(rotation_rows(body, *motion_)) * d.theta);
   Vector3 u = Vector3::Zero();  // change of the arm
   Vector3 udot = Vector3::Zero();
   Vector3 d_udot = Vector3::Zero();  // by the tables' change
@@ -216,7 +216,7 @@ void ResidualDerivative::change_wrench(AttachmentIndex attachment,
   const auto b = index(a.body);
   const BodyModel& body = model_.bodies[b];
   const AttachmentMotion& motion = terms_->attachments[index(attachment)];
-  const BodyIncrement d(body, b, x);
+  const BodyIncrement d(body, x);
   const Matrix3 R_BW = motion.R_WB.transpose();
   const Vector3 force_B = R_BW * force;
   const Vector3 moment_B = R_BW * moment;
@@ -231,12 +231,12 @@ void ResidualDerivative::change_wrench(AttachmentIndex attachment,
     const Vector3 d_twist =
         left_jacobian_derivative(motion.psi, d_psi).transpose() * moment_B +
         motion.J_psi.transpose() * d_moment_B;
-    r.segment(first_row(body, b) + 6, body.modes) -=
+    r.segment(body.row + 6, body.modes) -=
         Phi_B.transpose() * d_force_B + Psi_B.transpose() * d_twist;
   }
   if (!body.has_rigid_motion()) return;
-  r.segment<3>(first_row(body, b)) -= d_force;
-  r.segment<3>(first_row(body, b) + 3) -=
+  r.segment<3>(body.row) -= d_force;
+  r.segment<3>(body.row + 3) -=
       d_arm.cross(force_B) + motion.arm_B.cross(d_force_B) + d_moment_B;
 }
 
@@ -357,7 +357,7 @@ void ResidualDerivative::change_load(const Load& load, const VectorX& x,
   const auto b = index(a.body);
   const BodyModel& body = model_.bodies[b];
   const Matrix3& R_WB = terms_->bodies[b].R_WB;
-  const BodyIncrement d(body, b, x);
+  const BodyIncrement d(body, x);
   const Vector3 force = factor * load.force;
   const Vector3 moment = factor * load.moment;
   if (is_coupled(body.fidelity)) {
@@ -373,13 +373,13 @@ void ResidualDerivative::change_load(const Load& load, const VectorX& x,
   }
   if (!body.has_rigid_motion()) return;
   if (!load.in_world) {
-    r.segment<3>(first_row(body, b)) -= R_WB * d.theta.cross(force);
+    r.segment<3>(body.row) -= R_WB * d.theta.cross(force);
     return;
   }
   const Vector3 d_force_B = -d.theta.cross(R_WB.transpose() * force);
   const Vector3 d_moment_B = -d.theta.cross(R_WB.transpose() * moment);
-  r.segment<3>(first_row(body, b) + 3) -= a.p_BF.cross(d_force_B) + d_moment_B;
-  r.segment(first_row(body, b) + 6, body.modes) -=
+  r.segment<3>(body.row + 3) -= a.p_BF.cross(d_force_B) + d_moment_B;
+  r.segment(body.row + 6, body.modes) -=
       a.Phi_B.leftCols(body.modes).transpose() * d_force_B +
       a.Psi_B.leftCols(body.modes).transpose() * d_moment_B;
 }
@@ -392,10 +392,9 @@ void ResidualDerivative::change_body_load(const BodyLoad& load,
   const flexbody::NodalLoad& history = load.history;
   const Eigen::Index i = find_interval(history.times, state_->t, Side::left);
   if (i < 0) return;
-  const BodyIncrement d(body, b, x);
+  const BodyIncrement d(body, x);
   const Vector3 force = history.force.col(i);
-  r.segment<3>(first_row(body, b)) -=
-      terms_->bodies[b].R_WB * d.theta.cross(force);
+  r.segment<3>(body.row) -= terms_->bodies[b].R_WB * d.theta.cross(force);
   if (!is_coupled(body.fidelity)) return;
   const Eigen::Index first = i * count_coordinates(body);
   const double* eta = state_->eta.data() + body.offset;
@@ -409,7 +408,7 @@ void ResidualDerivative::change_body_load(const BodyLoad& load,
         is_square ? eta[k] * d.eta[k] : eta[k] * d.eta[l] + eta[l] * d.eta[k];
     moment += history.moment_by_mode.col(first + body.modes + pair) * change;
   });
-  r.segment<3>(first_row(body, b) + 3) -= moment;
+  r.segment<3>(body.row + 3) -= moment;
 }
 
 void ResidualDerivative::apply_rest(const VectorX& increments,

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 
 namespace limber::dynamics {
@@ -27,10 +27,9 @@ class ResidualDerivative {
 
   /// The point to differentiate at, stored by reference.
   /// @param acceleration of the residual
-  /// @param rotation_increments of the step, one per body [rad]
+  /// @param motion of the step, whose rotations count [rad]
   void set_point(const SystemState& state, const SystemTerms& terms,
-                 const Rates& acceleration,
-                 const std::vector<Vector3>& rotation_increments,
+                 const VectorX& acceleration, const VectorX& motion,
                  const NewtonMatrix::Coefficients& coefficients);
 
   /// Change by `increments` beyond that of NewtonMatrix factored at the same
@@ -105,8 +104,8 @@ class ResidualDerivative {
   const SystemModel& model_;
   const SystemState* state_ = nullptr;
   const SystemTerms* terms_ = nullptr;
-  const Rates* acceleration_ = nullptr;
-  const std::vector<Vector3>* rotation_increments_ = nullptr;
+  const VectorX* acceleration_ = nullptr;
+  const VectorX* motion_ = nullptr;
   NewtonMatrix::Coefficients c_;
   std::vector<FrameChange> frames_;
   std::vector<MotionChange> motions_;

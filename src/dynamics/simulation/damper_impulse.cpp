@@ -11,9 +11,9 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
-#include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -50,14 +50,13 @@ void add_velocities(const SystemModel& model, const VectorX& x,
                     SystemState& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(body, b);
     state.etadot.segment(body.offset, body.modes) +=
-        kScale * x.segment(row + 6, body.modes);
+        kScale * mode_rows(body, x);
     if (!body.has_rigid_motion()) continue;
-    state.bodies[b].v_WB_W += kScale * x.segment<3>(row);
-    state.bodies[b].w_WB_B += kScale * x.segment<3>(row + 3);
+    state.bodies[b].v_WB_W += kScale * translation_rows(body, x);
+    state.bodies[b].w_WB_B += kScale * rotation_rows(body, x);
   }
-  state.udot_H += kScale * x.tail(model.nodal_count);
+  state.udot_H += kScale * nodal_rows(model, x);
 }
 
 /// Applies powers of X to velocities, by the factors of a Newton matrix whose
@@ -71,9 +70,8 @@ class DamperFilter {
         terms_(std::move(terms)),
         targets_(link_count(), Vector6::Zero()),
         gaps_(targets_),
-        still_(model.bodies.size(), Vector3::Zero()),
-        rates_(make_rates(model)),
-        residual_(VectorX::Zero(count_unknowns(model))),
+        still_(make_unknowns(model)),
+        residual_(still_),
         x_(residual_) {}
 
   // Powers dissipated by couplers, transmissions, pairs and the modes of each
@@ -123,10 +121,11 @@ class DamperFilter {
   double find_kinetic_change(const SystemState& before,
                              const SystemState& after) {
     leave_dampers_alone();
-    const VectorX from = collect_velocities(before);
-    const VectorX to = collect_velocities(after);
-    set_rates(to - from);
-    calc_residual(model_, rates_, terms_, residual_);
+    VectorX from = make_unknowns(model_);
+    VectorX to = make_unknowns(model_);
+    get_velocities(model_, before, from);
+    get_velocities(model_, after, to);
+    calc_residual(model_, to - from, terms_, residual_);
     return 0.5 * residual_.dot(from + to);
   }
 
@@ -150,33 +149,6 @@ class DamperFilter {
  private:
   [[nodiscard]] const AttachmentMotion& motion_of(AttachmentIndex i) const {
     return terms_.attachments[static_cast<std::size_t>(i)];
-  }
-
-  [[nodiscard]] VectorX collect_velocities(const SystemState& state) const {
-    VectorX v = VectorX::Zero(x_.size());
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyModel& body = model_.bodies[b];
-      const Eigen::Index row = first_row(body, b);
-      v.segment(row + 6, body.modes) =
-          state.etadot.segment(body.offset, body.modes);
-      if (!body.has_rigid_motion()) continue;
-      v.segment<3>(row) = state.bodies[b].v_WB_W;
-      v.segment<3>(row + 3) = state.bodies[b].w_WB_B;
-    }
-    v.tail(model_.nodal_count) = state.udot_H;
-    return v;
-  }
-
-  void set_rates(const VectorX& x) {
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyModel& body = model_.bodies[b];
-      const Eigen::Index row = first_row(body, b);
-      rates_.translation[b] = x.segment<3>(row);
-      rates_.rotation[b] = x.segment<3>(row + 3);
-      rates_.modes.segment(body.offset, body.modes) =
-          x.segment(row + 6, body.modes);
-    }
-    rates_.nodes = x.tail(model_.nodal_count);
   }
 
   [[nodiscard]] std::size_t link_count() const {
@@ -206,9 +178,8 @@ class DamperFilter {
     residual_.setZero();
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyModel& body = model_.bodies[b];
-      residual_.segment(first_row(body, b) + 6, body.modes) =
-          body.damping.cwiseProduct(
-              state.etadot.segment(body.offset, body.modes));
+      residual_.segment(body.row + 6, body.modes) = body.damping.cwiseProduct(
+          state.etadot.segment(body.offset, body.modes));
     }
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       for (const auto& point : terms_.pairs.responses[i].points()) {
@@ -221,8 +192,7 @@ class DamperFilter {
   // X x = x - (M + h C)^-1 M x: unlike h C x, without round-off of large
   // damping in undamped directions.
   void filter_increments() {
-    set_rates(x_);
-    calc_residual(model_, rates_, terms_, residual_);
+    calc_residual(model_, x_, terms_, residual_);
     residual_ *= -kScale / h_;
     for (Vector6& gap : gaps_) gap.setZero();
     const VectorX before = x_;
@@ -266,8 +236,7 @@ class DamperFilter {
   SystemTerms terms_;
   std::vector<Vector6> targets_;  // one per coupler, then one per transmission
   std::vector<Vector6> gaps_;
-  std::vector<Vector3> still_;
-  Rates rates_;
+  VectorX still_;
   VectorX residual_;
   VectorX x_;
 };

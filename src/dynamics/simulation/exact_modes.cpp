@@ -43,6 +43,7 @@ ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
     const BodyModel& body = model.bodies[b];
     BodyModel& left = rest_.bodies[b];
     left.offset = rest_.modal_count;
+    left.row = 6 * static_cast<Eigen::Index>(b) + left.offset;
     const auto index = static_cast<BodyIndex>(b);
     if (has_closed_modal_loads(model, index)) {
       const flexbody::ModalState state{

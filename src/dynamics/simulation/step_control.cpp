@@ -6,9 +6,8 @@
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
-#include "limber/dynamics/equations/residual.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -21,13 +20,13 @@ constexpr double kMostShrinking = 0.1;
 constexpr double kMostTurn = 1.0;     // [rad]
 constexpr double kSmallShare = 1e-3;  // of a body's size, for differences
 
-Rates find_acceleration_rates(const SystemModel& model,
-                              const SystemState& state, Side side) {
+VectorX find_accelerations(const SystemModel& model, const SystemState& state,
+                           Side side) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, side, terms);
-  Accelerations a = make_accelerations(model);
+  VectorX a = make_unknowns(model);
   solve_accelerations(model, terms, a);
-  return {a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H};
+  return a;
 }
 
 // In which no body moves by more than a small share of its size.
@@ -45,26 +44,13 @@ double find_short_time(const SystemModel& model, const SystemState& state) {
 
 // The state after a time in which the accelerations hardly change.
 SystemState continue_motion(const SystemModel& model, const SystemState& state,
-                            const Rates& a, double h) {
-  VectorX moved = VectorX::Zero(count_unknowns(model));
+                            const VectorX& a, double h) {
+  VectorX v = make_unknowns(model);
+  get_velocities(model, state, v);
   SystemState later = state;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(body, b);
-    const BodyState& at = state.bodies[b];
-    moved.segment<3>(row) = h * at.v_WB_W + 0.5 * h * h * a.translation[b];
-    moved.segment<3>(row + 3) = h * at.w_WB_B + 0.5 * h * h * a.rotation[b];
-    moved.segment(row + 6, body.modes) =
-        h * state.etadot.segment(body.offset, body.modes) +
-        0.5 * h * h * a.modes.segment(body.offset, body.modes);
-    later.bodies[b].v_WB_W += h * a.translation[b];
-    later.bodies[b].w_WB_B += h * a.rotation[b];
-  }
-  moved.tail(model.nodal_count) = h * state.udot_H + 0.5 * h * h * a.nodes;
-  later.etadot += h * a.modes;
-  later.udot_H += h * a.nodes;
+  set_velocities(model, v + h * a, later);
   later.t += h;
-  displace(model, moved, 1.0, later);
+  displace(model, h * v + 0.5 * h * h * a, 1.0, later);
   return later;
 }
 
@@ -109,13 +95,13 @@ bool StepControl::accepts(double h, double error) {
 double find_first_step(const SystemModel& model, const SystemState& state,
                        double allowed) {
   const MotionScale scale(model);
-  const Rates a = find_acceleration_rates(model, state, Side::right);
+  const VectorX a = find_accelerations(model, state, Side::right);
   const double size =
-      scale.measure_change(make_rates(model), a, 1.0, 0.0).displacement;
+      scale.measure_change(make_unknowns(model), a, 1.0, 0.0).displacement;
   const double free = std::sqrt(allowed / size);
   const double h = std::min(find_short_time(model, state), free);
   if (!(h < kInfinity)) return kInfinity;
-  const Rates later = find_acceleration_rates(
+  const VectorX later = find_accelerations(
       model, continue_motion(model, state, a, h), Side::left);
   const double change = scale.measure_change(a, later, 1.0, 0.0).displacement;
   return std::min(free, std::cbrt(allowed * h / change));

@@ -73,6 +73,7 @@ class ModelCheck {
 
   void check_bodies() {
     int offset = 0;
+    Eigen::Index row = 0;
     int maxwell_offset = 0;
     for (const BodyModel& body : model_.bodies) {
       const auto expect = [&](bool holds, const char* problem) {
@@ -83,6 +84,8 @@ class ModelCheck {
       expect(body.J0.allFinite(), "its inertia is not finite");
       expect(body.modes >= 0 && body.offset == offset,
              "its modal coordinates do not follow those of the body before it");
+      expect(body.row == row,
+             "its unknowns do not follow those of the body before it");
       expect(flexbody::count_modes(body.elasticity) == body.modes &&
                  body.damping.size() == body.modes,
              "its elasticity or damping rates are not one a mode");
@@ -100,6 +103,7 @@ class ModelCheck {
              "its Maxwell elements are not finite strengths >= 0 and times > "
              "0");
       offset += body.modes;
+      row += 6 + body.modes;
       maxwell_offset += body.modes * static_cast<int>(maxwell.size());
     }
     if (maxwell_offset != model_.maxwell_count) {

@@ -68,7 +68,7 @@ constexpr auto fields_of(const ModalInertia*) {
 
 constexpr auto fields_of(const BodyModel*) {
   return list_fields("body", "name", "level", "clamped", "mass [kg]",
-                     "inertia [kg m^2]", "modes", "offset", "elasticity",
+                     "inertia [kg m^2]", "modes", "offset", "row", "elasticity",
                      "damping [1/s]", "Maxwell elements",
                      "first Maxwell element", "inertia by mode", "P [kg^1/2]",
                      "reduced", "full");

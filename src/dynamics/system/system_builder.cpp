@@ -9,6 +9,7 @@
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/builder_checks.hpp"
 #include "limber/dynamics/system/model_check.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -64,6 +65,7 @@ BodyIndex SystemBuilder::add_body(const std::string& name, BodyModel body) {
   names_.add("body", name);
   body.name = name;
   body.offset = model_.modal_count;
+  body.row = first_node_row(model_);
   model_.modal_count += body.modes;
   body.maxwell_offset = model_.maxwell_count;
   model_.maxwell_count += body.modes * static_cast<int>(body.maxwell.size());

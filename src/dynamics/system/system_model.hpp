@@ -43,7 +43,8 @@ struct BodyModel {
   double mass = 0.0;             ///< [kg]
   Matrix3 J0 = Matrix3::Zero();  ///< inertia, undeformed [kg m^2]
   int modes = 0;                 ///< number of modes m
-  int offset = 0;  ///< index of the first modal coordinate in the state
+  int offset = 0;        ///< index of the first modal coordinate in the state
+  Eigen::Index row = 0;  ///< index of its first unknown (unknowns.hpp)
   flexbody::ModalElasticity elasticity;  ///< of m modes
   VectorX damping;                       ///< m, diagonal of C [1/s]
   flexbody::MaxwellElements maxwell;     ///< J of each mode; J = 0: none

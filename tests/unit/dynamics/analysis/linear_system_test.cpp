@@ -131,10 +131,10 @@ TEST(LinearSystem, HasTheEigenvaluesOfTheNaturalModes) {
   }
 }
 
-Accelerations accelerate(const SystemModel& model, const SystemState& state) {
+VectorX accelerate(const SystemModel& model, const SystemState& state) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
-  Accelerations a = make_accelerations(model);
+  VectorX a = make_unknowns(model);
   solve_accelerations(model, terms, a);
   return a;
 }
@@ -142,17 +142,17 @@ Accelerations accelerate(const SystemModel& model, const SystemState& state) {
 /// The difference of two systems' accelerations as x'' of SmallMotion, over
 /// `step`.
 VectorX find_difference(const SystemModel& model, const SmallMotion& motion,
-                        const SystemState& state, const Accelerations& plus,
-                        const Accelerations& minus, double step) {
+                        const SystemState& state, const VectorX& plus,
+                        const VectorX& minus, double step) {
   VectorX xddot = VectorX::Zero(motion.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Index p = motion.places[b];
-    xddot.segment<3>(p) = plus.a_WB_W[b] - minus.a_WB_W[b];
-    xddot.segment<3>(p + 3) =
-        state.bodies[b].quat_WB * Vector3(plus.dw_WB_B[b] - minus.dw_WB_B[b]);
     const BodyModel& body = model.bodies[b];
-    xddot.segment(motion.modes[b], body.modes) =
-        (plus.etaddot - minus.etaddot).segment(body.offset, body.modes);
+    const VectorX change = plus - minus;
+    xddot.segment<3>(p) = translation_rows(body, change);
+    xddot.segment<3>(p + 3) =
+        state.bodies[b].quat_WB * Vector3(rotation_rows(body, change));
+    xddot.segment(motion.modes[b], body.modes) = mode_rows(body, change);
   }
   return xddot / step;
 }

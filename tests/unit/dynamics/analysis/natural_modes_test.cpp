@@ -320,22 +320,20 @@ TEST(SmallMotion, IsThatOfDifferencesOfTheAccelerations) {
                             (v.segment<3>(p + 3) + w.cross(turn)));
       }
       calc_terms(model, moved, Side::right, terms);
-      Accelerations a = make_accelerations(model);
+      VectorX a = make_unknowns(model);
       solve_accelerations(model, terms, a);
       return a;
     };
-    const Accelerations plus = accelerate(kStep);
-    const Accelerations minus = accelerate(-kStep);
+    const VectorX change =
+        (accelerate(kStep) - accelerate(-kStep)) / (2.0 * kStep);
     VectorX xddot(n);
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const Eigen::Index p = motion.places[b];
       const int m = model.bodies[b].modes;
-      const int first = model.bodies[b].offset;
       const BodyState& body = state.bodies[b];
       const Matrix3 R_AB = axes.R.transpose() * body.quat_WB.toRotationMatrix();
       const Vector3 w = axes.R.transpose() * axes.w_W;
-      xddot.segment(motion.modes[b], m) =
-          (plus.etaddot - minus.etaddot).segment(first, m) / (2.0 * kStep);
+      xddot.segment(motion.modes[b], m) = mode_rows(model.bodies[b], change);
       // u' = (axes)' d(v') - w x u, x'' = u' - w x x', with u = x' + w x x.
       for (const int part : {0, 3}) {
         const Vector3 at = x.segment<3>(p + part);
@@ -343,10 +341,9 @@ TEST(SmallMotion, IsThatOfDifferencesOfTheAccelerations) {
         const Vector3 u = rate + w.cross(at);
         Vector3 du;
         if (part == 0) {
-          du = axes.R.transpose() * (plus.a_WB_W[b] - minus.a_WB_W[b]) /
-               (2.0 * kStep);
+          du = axes.R.transpose() * translation_rows(model.bodies[b], change);
         } else {
-          du = R_AB * (plus.dw_WB_B[b] - minus.dw_WB_B[b]) / (2.0 * kStep) +
+          du = R_AB * rotation_rows(model.bodies[b], change) +
                (R_AB * body.w_WB_B).cross(u);
         }
         xddot.segment<3>(p + part) = du - w.cross(u) - w.cross(rate);

@@ -19,8 +19,8 @@ class MotionScaleTest : public ::testing::Test {
       : cloud_(testing::make_point_mass_body(20, 2, 4.0, 1.0, 50.0, 1)),
         model_(build(cloud_)),
         scale_(model_),
-        a_(make_rates(model_)),
-        b_(make_rates(model_)) {}
+        a_(make_unknowns(model_)),
+        b_(a_) {}
 
   static SystemModel build(const testing::PointMassBody& cloud) {
     SystemBuilder builder;
@@ -41,29 +41,41 @@ class MotionScaleTest : public ::testing::Test {
         .maxCoeff();
   }
 
+  static constexpr int kSmall = 0;
+  static constexpr int kCloud = 1;
+  [[nodiscard]] auto translation(int body, VectorX& x) const {
+    return translation_rows(model_.bodies[index(body)], x);
+  }
+  [[nodiscard]] auto rotation(int body, VectorX& x) const {
+    return rotation_rows(model_.bodies[index(body)], x);
+  }
+  [[nodiscard]] auto modes(VectorX& x) const {
+    return mode_rows(model_.bodies[kCloud], x);
+  }
+
   testing::PointMassBody cloud_;
   SystemModel model_;
   MotionScale scale_;
-  Rates a_, b_;
+  VectorX a_, b_;
 };
 
 TEST_F(MotionScaleTest, TakesTheBodyWhosePointsMoveMost) {
-  b_.translation[0] = Vector3(0.3, 0.0, 0.0);
-  b_.translation[1] = Vector3(0.0, 0.0, 0.2);
+  translation(kSmall, b_) = Vector3(0.3, 0.0, 0.0);
+  translation(kCloud, b_) = Vector3(0.0, 0.0, 0.2);
   const auto largest = scale_.measure_change(a_, b_, 0.5, 0.0);
   EXPECT_EQ(largest.body, 0);
   EXPECT_NEAR(largest.displacement, 0.15, 1e-15);
-  b_.rotation[1] = Vector3(0.0, 1.0, 0.0);
+  rotation(kCloud, b_) = Vector3(0.0, 1.0, 0.0);
   EXPECT_EQ(scale_.measure_change(a_, b_, 0.5, 0.0).body, 1);
 }
 
 TEST_F(MotionScaleTest, AddsSquaresOfTranslationRotationAndModes) {
-  a_.translation[1] = Vector3(0.1, 0.2, 0.3);
-  b_.translation[1] = Vector3(0.4, 0.2, -0.1);  // 0.5 apart
-  a_.rotation[1] = Vector3(0.0, 1.0, 0.0);
-  b_.rotation[1] = Vector3(0.0, 3.0, 0.0);
-  a_.modes << 0.7, -0.2;
-  b_.modes << 1.0, 0.3;
+  translation(kCloud, a_) = Vector3(0.1, 0.2, 0.3);
+  translation(kCloud, b_) = Vector3(0.4, 0.2, -0.1);  // 0.5 apart
+  rotation(kCloud, a_) = Vector3(0.0, 1.0, 0.0);
+  rotation(kCloud, b_) = Vector3(0.0, 3.0, 0.0);
+  modes(a_) << 0.7, -0.2;
+  modes(b_) << 1.0, 0.3;
   const double expected =
       0.01 *
       std::sqrt(0.25 + std::pow(2.0 * farthest(), 2) +
@@ -73,7 +85,7 @@ TEST_F(MotionScaleTest, AddsSquaresOfTranslationRotationAndModes) {
 }
 
 TEST_F(MotionScaleTest, TakesOfAModeWhatItsStiffnessLeaves) {
-  b_.modes << 1.0, 0.3;
+  modes(b_) << 1.0, 0.3;
   const VectorX& lambda = cloud_.reduced.lambda;
   const double filter = 3.0 / lambda[1];
   const double expected = std::hypot(size_of(0) / (1.0 + filter * lambda[0]),
@@ -103,8 +115,8 @@ TEST_F(MotionScaleTest, MeasuresTheDistanceOfTwoStates) {
 }
 
 TEST_F(MotionScaleTest, TellsTheBodyThatIsNotANumber) {
-  b_.translation[0] = Vector3(5.0, 0.0, 0.0);
-  b_.modes[1] = std::nan("");
+  translation(kSmall, b_) = Vector3(5.0, 0.0, 0.0);
+  modes(b_)[1] = std::nan("");
   const auto largest = scale_.measure_change(a_, b_, 1.0, 0.0);
   EXPECT_EQ(largest.body, 1);
   EXPECT_TRUE(std::isnan(largest.displacement));

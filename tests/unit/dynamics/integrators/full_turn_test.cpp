@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "support/full_lattice.hpp"
 
 namespace limber::dynamics::full_turn_test {
@@ -40,16 +41,19 @@ class FullTurn : public ::testing::Test {
 TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
   const NewmarkStep step{.h = 1e-2, .lag = 0.2, .beta = 0.3};
   const Vector3 fall(1.0, -9.0, 4.0);
-  VectorX uddot = VectorX::Zero(state_.u_H.size());
-  auto acceleration = nodes_of(full(), uddot);
+  VectorX uddot = make_unknowns(model_);
+  auto acceleration = nodal_rows(model_, full(), uddot);
   for (Eigen::Index i = 0; i < acceleration.cols(); ++i) {
     acceleration.col(i) = fall + kSpin.cross(kSpin.cross(find_arm(i)));
   }
-  const VectorX a = testing::make_field(uddot.size(), 5.0, 7);
-  VectorX a_next = VectorX::Zero(uddot.size());
+  VectorX a = make_unknowns(model_);
+  nodal_rows(model_, a) = testing::make_field(state_.u_H.size(), 5.0, 7);
+  VectorX a_next = make_unknowns(model_);
   ASSERT_TRUE(predict_turns(model_, state_, uddot, a, step, a_next));
   const VectorX next = state_.u_H + step.h * state_.udot_H +
-                       step.h * step.h * (step.lag * a + step.beta * a_next);
+                       step.h * step.h *
+                           (step.lag * nodal_rows(model_, a) +
+                            step.beta * nodal_rows(model_, a_next));
   const double s = step.lag + step.beta;
   const Matrix3 change = exp_rotation(step.h * kSpin) - Matrix3::Identity();
   for (Eigen::Index i = 0; i < acceleration.cols(); ++i) {
@@ -62,7 +66,7 @@ TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
 
 TEST_F(FullTurn, DoesNotGuessForABodyThatHardlyRotates) {
   state_.udot_H *= 1e-4;
-  const VectorX zero = VectorX::Zero(state_.u_H.size());
+  const VectorX zero = make_unknowns(model_);
   VectorX a_next = zero;
   EXPECT_FALSE(
       predict_turns(model_, state_, zero, zero, {1e-2, 0.2, 0.3}, a_next));
@@ -72,8 +76,8 @@ TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
   // A linear rotation about the frame's origin, and a translation.
   const Vector3 theta(0.2, 0.1, -0.3);
   const Vector3 shift(0.01, 0.02, 0.03);
-  VectorX d = VectorX::Zero(state_.u_H.size());
-  auto correction = nodes_of(full(), d);
+  VectorX d = make_unknowns(model_);
+  auto correction = nodal_rows(model_, full(), d);
   for (Eigen::Index i = 0; i < correction.cols(); ++i) {
     correction.col(i) = shift + theta.cross(find_arm(i));
   }

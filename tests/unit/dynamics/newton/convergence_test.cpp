@@ -115,8 +115,10 @@ class TwoBodies : public ::testing::Test {
     model_ = builder.build();
     state_ = make_state(model_);
     terms_ = make_terms(model_);
-    motion_ = make_rates(model_);
-    motion_.rotation[0] = motion_.rotation[1] = Vector3(1.0, 0.0, 0.0);
+    motion_ = make_unknowns(model_);
+    for (const BodyModel& body : model_.bodies) {
+      rotation_rows(body, motion_) = Vector3(1.0, 0.0, 0.0);
+    }
     progress_.emplace(model_);
     start();
   }
@@ -145,7 +147,7 @@ class TwoBodies : public ::testing::Test {
   SystemModel model_;
   SystemState state_;
   SystemTerms terms_;
-  Rates motion_;
+  VectorX motion_;
   std::optional<NewtonProgress> progress_;
 };
 
@@ -182,7 +184,7 @@ TEST_F(TwoBodies, RoundAtTheirOwnPlacesAndSpeeds) {
   EXPECT_EQ(group(0).roundoff.rigid, near);
   EXPECT_GT(group(1).roundoff.rigid, 2e-16 * 1e6);
   state_.bodies[1].p_WB.x() = 0.0;
-  motion_.translation[1].x() = 7.5;
+  translation_rows(model_.bodies[1], motion_).x() = 7.5;
   start();
   EXPECT_EQ(group(0).roundoff.rigid, near);
   EXPECT_GT(group(1).roundoff.rigid, 2e-16 * 7.5);

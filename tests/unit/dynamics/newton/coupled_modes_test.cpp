@@ -15,7 +15,6 @@
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/newton/hubs.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -87,18 +86,17 @@ Scene make_clamped() {
 TEST(CoupledModes, MakeNewtonsMethodConvergeQuadratically) {
   Scene scene = make_clamped();
   SystemTerms terms = make_terms(scene.model);
-  Rates none = make_rates(scene.model);
-  VectorX residual = VectorX::Zero(count_unknowns(scene.model));
+  const VectorX none = make_unknowns(scene.model);
+  VectorX residual = none;
   VectorX x;
   NewtonMatrix matrix(scene.model);
-  const std::vector<Vector3> turns(1, Vector3::Zero());
   const VectorX load = 150.0 * VectorX::LinSpaced(kModes, 1.0, -0.5);
   std::vector<double> sizes;
   for (int i = 0; i < 12; ++i) {
     calc_terms(scene.model, scene.state, Side::right, terms);
     calc_residual(scene.model, none, terms, residual);
     residual.tail(kModes) -= load;
-    matrix.factor(scene.model, scene.state, terms, turns, {0.0, 0.0});
+    matrix.factor(scene.model, scene.state, terms, none, {0.0, 0.0});
     matrix.solve(scene.model, terms, residual, x);
     scene.state.eta += x.tail(kModes);
     sizes.push_back(x.tail(kModes).norm() / scene.state.eta.norm());

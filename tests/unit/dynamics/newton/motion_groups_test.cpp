@@ -38,8 +38,10 @@ std::vector<double> measure(const SystemModel& model, const SystemState& state,
                             const std::vector<Vector3>& translations) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
-  Rates motion = make_rates(model);
-  motion.translation = translations;
+  VectorX motion = make_unknowns(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    translation_rows(model.bodies[b], motion) = translations[b];
+  }
   MotionGroups groups(model);
   std::vector<double> lengths(groups.count());
   groups.measure_motion(model, state, terms, motion, lengths);

@@ -52,21 +52,23 @@ class Random {
 // A step's end, and the wrenches of Newton's iterate there.
 struct Point {
   SystemState state;
-  Rates acceleration;
-  std::vector<Vector3> rotation_increments;
+  VectorX acceleration;
+  VectorX motion;  // over the step
   std::vector<Vector6> wrenches;
 };
 
 Point make_point(const SystemModel& model, const SystemState& state,
                  unsigned seed) {
   Random random(seed);
-  Point point{state, make_rates(model), {}, {}};
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    point.acceleration.translation[b] = 5.0 * random.vector();
-    point.acceleration.rotation[b] = 5.0 * random.vector();
-    point.rotation_increments.push_back(random.vector());
+  Point point{state, make_unknowns(model), make_unknowns(model), {}};
+  for (const BodyModel& body : model.bodies) {
+    translation_rows(body, point.acceleration) = 5.0 * random.vector();
+    rotation_rows(body, point.acceleration) = 5.0 * random.vector();
+    rotation_rows(body, point.motion) = random.vector();
   }
-  point.acceleration.modes = 5.0 * random.vector(model.modal_count);
+  for (const BodyModel& body : model.bodies) {
+    mode_rows(body, point.acceleration) = 5.0 * random.vector(body.modes);
+  }
   const std::size_t links = model.couplers.size() + model.transmissions.size();
   for (std::size_t i = 0; i < links; ++i) {
     point.wrenches.emplace_back(20.0 * random.vector(6));
@@ -82,23 +84,22 @@ Point move(const SystemModel& model, const Point& from, const VectorX& x,
   Point to = from;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = 6 * static_cast<Eigen::Index>(b) + body.offset;
-    const VectorX eta = h * x.segment(row + 6, body.modes);
+    const VectorX eta = h * mode_rows(body, x);
     to.state.eta.segment(body.offset, body.modes) += eta;
     to.state.etadot.segment(body.offset, body.modes) += v * eta;
-    to.acceleration.modes.segment(body.offset, body.modes) += a * eta;
+    mode_rows(body, to.acceleration) += a * eta;
     if (body.clamped) continue;
-    const Vector3 p = h * x.segment<3>(row);
-    const Vector3 theta = h * x.segment<3>(row + 3);
+    const Vector3 p = h * translation_rows(body, x);
+    const Vector3 theta = h * rotation_rows(body, x);
     const Vector3 inc =
-        right_jacobian_inverse(from.rotation_increments[b]) * theta;
+        right_jacobian_inverse(rotation_rows(body, from.motion)) * theta;
     BodyState& s = to.state.bodies[b];
     s.p_WB += p;
     s.quat_WB = s.quat_WB * exp_quaternion(theta);
     s.v_WB_W += v * p;
     s.w_WB_B += v * inc;
-    to.acceleration.translation[b] += a * p;
-    to.acceleration.rotation[b] += a * inc;
+    translation_rows(body, to.acceleration) += a * p;
+    rotation_rows(body, to.acceleration) += a * inc;
   }
   for (std::size_t i = 0; i < dw.size(); ++i) to.wrenches[i] += h * dw[i];
   return to;
@@ -150,11 +151,10 @@ void compare(const SystemModel& model, const Point& point, unsigned seed,
 
   evaluate(model, point, terms, residual);
   NewtonMatrix matrix(model);
-  matrix.factor(model, point.state, terms, point.rotation_increments,
-                kCoefficients);
+  matrix.factor(model, point.state, terms, point.motion, kCoefficients);
   ResidualDerivative derivative(model);
-  derivative.set_point(point.state, terms, point.acceleration,
-                       point.rotation_increments, kCoefficients);
+  derivative.set_point(point.state, terms, point.acceleration, point.motion,
+                       kCoefficients);
   VectorX right;
   std::vector<Vector6> gaps;
   derivative.apply_rest(x, right, gaps);
