@@ -58,11 +58,17 @@ std::optional<std::string> find_included_name(std::string_view line) {
   return std::string(rest.substr(1, end - 1));
 }
 
+bool is_dmig(std::string_view raw) {
+  return to_upper(std::string(raw.substr(0, 4))) == "DMIG";
+}
+
 class DeckReader {
  public:
+  explicit DeckReader(DeckUse use) : use_(use) {}
+
   Deck read(const std::filesystem::path& file) {
     append(file, 0);
-    if (begin_ && !deck_.has_end)
+    if (begin_ && !deck_.has_end && !is_superelement_)
       throw InputError(fmt::format(
           "{}: the bulk data has a BEGIN BULK and no ENDDATA, so the file is "
           "truncated. Expected ENDDATA after the last card.",
@@ -83,9 +89,20 @@ class DeckReader {
     for (std::size_t start = 0; start < text.size() && !deck_.has_end;) {
       const std::size_t end = std::min(text.find('\n', start), text.size());
       const auto raw = std::string_view(text).substr(start, end - start);
-      add_line(clean_line(raw), index, ++number, depth);
+      ++number;
+      if (use_ == DeckUse::mesh || !passes_over(raw))
+        add_line(clean_line(raw), index, number, depth);
       start = end + 1;
     }
+  }
+
+  /// DMIG cards and their continuations.
+  bool passes_over(std::string_view raw) {
+    const bool continues =
+        raw.empty() ||
+        std::string_view(" +*,$\t\r").find(raw[0]) != std::string_view::npos;
+    if (!continues) is_in_dmig_ = is_dmig(raw);
+    return is_in_dmig_;
   }
 
   void add_line(const std::string& text, std::size_t file, std::size_t number,
@@ -106,7 +123,9 @@ class DeckReader {
 
   /// Drops the sections before the bulk data.
   void begin(const DeckLine& line) {
-    if (begin_ || has_word(line.text, "SUPER") || has_word(line.text, "AUX") ||
+    is_superelement_ = use_ == DeckUse::points && !begin_ &&
+                       has_word(line.text, "SUPER");
+    if (begin_ || (!is_superelement_ && has_word(line.text, "SUPER")) || has_word(line.text, "AUX") ||
         has_word(line.text, "MODULE") || has_word(line.text, "ARBMODEL"))
       throw InputError(fmt::format(
           "{}: '{}' begins a second bulk data section or that of a "
@@ -145,8 +164,11 @@ class DeckReader {
         deck_.place_of(line), echo(name), deck_.files[0].string()));
   }
 
+  DeckUse use_;
   Deck deck_;
   bool begin_ = false;
+  bool is_superelement_ = false;
+  bool is_in_dmig_ = false;
 };
 
 }  // namespace
@@ -155,8 +177,8 @@ std::string Deck::place_of(const DeckLine& line) const {
   return fmt::format("{}:{}", files[line.file].string(), line.number);
 }
 
-Deck read_deck(const std::filesystem::path& file) {
-  return DeckReader().read(file);
+Deck read_deck(const std::filesystem::path& file, DeckUse use) {
+  return DeckReader(use).read(file);
 }
 
 }  // namespace limber::fem

@@ -26,9 +26,18 @@ struct Deck {
   [[nodiscard]] std::string place_of(const DeckLine& line) const;
 };
 
+/// What a deck is read for.
+enum class DeckUse {
+  mesh,
+  /// As `mesh` without DMIG cards, which may be millions; the section may be
+  /// that of a superelement (BEGIN SUPER), and need no ENDDATA then.
+  points
+};
+
 /// What follows BEGIN BULK, or the whole file if it has no such line.
 /// @throws InputError for a file that is not text or cannot be read, for more
 /// than one section, and for a section without ENDDATA, which is truncated.
-[[nodiscard]] Deck read_deck(const std::filesystem::path& file);
+[[nodiscard]] Deck read_deck(const std::filesystem::path& file,
+                             DeckUse use = DeckUse::mesh);
 
 }  // namespace limber::fem

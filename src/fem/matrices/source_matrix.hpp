@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limber/fem/matrices/matrix_model.hpp"
+
+namespace limber::fem {
+
+/// What a row moves, in the file's own numbers.
+struct RowLabel {
+  long node = 0;
+  /// 1 to 3: translations, 4 to 6: rotations; all others (0 of a scalar point,
+  /// 7 of warping): not known.
+  int component = 0;
+
+  auto operator<=>(const RowLabel&) const = default;
+};
+
+/// "10.1" for node 10, translation along x.
+[[nodiscard]] std::string name_row(const RowLabel& label);
+
+enum class MatrixRole { unknown, stiffness, mass, other };
+
+/// "KAAX", "job_STIF1", "stiffness": by the words that programs use.
+[[nodiscard]] MatrixRole guess_role(const std::string& name);
+
+/// A matrix of a file before it is known what its rows are.
+struct SourceMatrix {
+  ModelMatrix matrix;
+  std::string format;  ///< of the file, for messages
+  std::string name;    ///< of the matrix in its file; may be empty
+  MatrixRole role = MatrixRole::unknown;
+  std::string triangles;  ///< what was given: "lower triangle, mirrored"
+  /// Of each row; none if the file only numbers them.
+  std::vector<RowLabel> labels;
+};
+
+/// What rows are, in the order of the matrices.
+struct RowTable {
+  std::filesystem::path file;
+  std::string format;
+  std::vector<RowLabel> labels;
+};
+
+}  // namespace limber::fem
