@@ -97,8 +97,16 @@ double MatrixEntries::read(const TextScanner& scanner, std::string_view text) {
                     "the matrix.",
                     echo(text)));
   }
-  if (digits_ < kMostDigits) digits_ = std::max(digits_, count_digits(text));
+  int& digits = value < 0.0 ? negative_digits_ : digits_;
+  if (digits < kMostDigits) digits = std::max(digits, count_digits(text));
   return value;
+}
+
+int MatrixEntries::count_all_digits() const {
+  const int most = std::max(digits_, negative_digits_);
+  if (is_exact_ || most == 0) return kMostDigits;
+  if (negative_digits_ == digits_ - 1) return negative_digits_;
+  return std::min(most, kMostDigits);
 }
 
 std::vector<std::uint32_t> MatrixEntries::sort() const {
@@ -142,8 +150,7 @@ void MatrixEntries::make_symmetric(std::size_t size, SourceMatrix& source) && {
     }
     given.finalize();
   }
-  source.matrix.digits =
-      is_exact_ || digits_ == 0 ? kMostDigits : std::min(digits_, kMostDigits);
+  source.matrix.digits = count_all_digits();
 
   const Sparse transposed = given.transpose();
   const Pairs pairs = find_pairs(given, transposed);

@@ -37,6 +37,7 @@ class MatrixEntries {
   void make_symmetric(std::size_t size, SourceMatrix& source) &&;
 
  private:
+  [[nodiscard]] int count_all_digits() const;
   [[nodiscard]] std::vector<std::uint32_t> sort() const;
   [[nodiscard]] std::size_t find_line(int row, int column) const;
 
@@ -44,7 +45,8 @@ class MatrixEntries {
   std::vector<int> columns_;
   std::vector<double> values_;
   std::vector<std::uint32_t> lines_;
-  int digits_ = 0;
+  int digits_ = 0;           // of positive numbers
+  int negative_digits_ = 0;  // of negative ones, whose sign may cost one
   bool is_exact_ = false;
 };
 

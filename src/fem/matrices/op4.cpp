@@ -68,9 +68,11 @@ Op4Head read_op4_head(TextScanner& scanner) {
   return head;
 }
 
-/// Lines of values have a decimal point, others do not.
+/// Lines of values have a decimal point; so has the format in a head,
+/// 1P,3E23.16.
 bool is_value_line(std::string_view line) {
-  return line.find('.') != std::string_view::npos;
+  return line.find('.') != std::string_view::npos &&
+         line.find_first_of("Pp,") == std::string_view::npos;
 }
 
 class Op4Reader {

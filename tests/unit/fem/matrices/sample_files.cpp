@@ -84,8 +84,7 @@ double compare_entries(const std::map<EntryKey, double>& a,
 }
 
 MatrixX rigid_motions(const MatrixModel& model) {
-  MatrixX X =
-      MatrixX::Zero(static_cast<Eigen::Index>(model.rows.size()), 6);
+  MatrixX X = MatrixX::Zero(static_cast<Eigen::Index>(model.rows.size()), 6);
   for (std::size_t i = 0; i < model.rows.size(); ++i) {
     const auto [node, component] = model.rows[i];
     if (component < 0) continue;
