@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz/readers.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #include "limber/common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
+#include "limber/fem/matrices/read_matrices.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_wire.hpp"
 #endif
@@ -104,6 +108,28 @@ void read_mesh_reply(std::string_view bytes) {
   fem::check_faces(mesh);
   fem::check_connected(mesh);
 }
+
+// Files of a model, each behind a line "=== NAME".
+void read_matrix_files(std::string_view bytes) {
+  constexpr std::string_view kMark = "=== ";
+  constexpr std::size_t kMostFiles = 6;
+  const TemporaryFolder folder;
+  for (std::size_t count = 0; count < kMostFiles && bytes.starts_with(kMark);
+       ++count) {
+    const std::size_t start = std::min(bytes.find('\n'), bytes.size());
+    std::string name;
+    for (const char c : bytes.substr(kMark.size(), start - kMark.size()))
+      if (std::isalnum(c & 0xff) != 0 || c == '.' || c == '_') name += c;
+    bytes.remove_prefix(std::min(start + 1, bytes.size()));
+    const std::size_t end = bytes.find("\n=== ");
+    // Its number first: names are neither empty nor "..".
+    write_bytes(folder.path() / (std::to_string(count) + "_" + name),
+                std::string(bytes.substr(
+                    0, end == std::string_view::npos ? end : end + 1)));
+    bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  }
+  (void)fem::read_matrices({{folder.path()}});
+}
 #endif
 
 }  // namespace
@@ -123,6 +149,7 @@ const std::vector<Reader>& all_readers() {
       {"body_content", read_edited_body},
 #ifdef LIMBER_HAS_REDUCTION
       {"mesh_reply", read_mesh_reply},
+      {"matrices", read_matrix_files},
 #endif
   };
   return readers;

@@ -55,7 +55,8 @@ class SubstructureReader {
       } else if (part_ == Part::matrix) {
         add_values(line);
       } else {
-        scanner_.fail("data before *USER ELEMENT or *MATRIX.");
+        scanner_.fail(
+            "data of no keyword. Expected *USER ELEMENT or *MATRIX before it.");
       }
     }
     finish_matrix();
@@ -97,13 +98,14 @@ class SubstructureReader {
         const std::size_t equals = field.find('=');
         if (field.starts_with("NODES") && equals != field.npos &&
             !parse_whole(trim_blanks(field.substr(equals + 1)), count_))
-          scanner_.fail("*USER ELEMENT without its number of nodes.");
+          scanner_.fail("*USER ELEMENT without a number. Expected NODES=.");
       }
     } else if (upper.starts_with("*MATRIX")) {
       const std::size_t type = upper.find("TYPE");
       const std::size_t equals =
           type == upper.npos ? upper.npos : upper.find('=', type);
-      if (equals == upper.npos) scanner_.fail("*MATRIX without TYPE=.");
+      if (equals == upper.npos)
+        scanner_.fail("*MATRIX without type. Expected TYPE=.");
       part_ = Part::matrix;
       name_ = trim_blanks(std::string_view(upper).substr(equals + 1));
       name_ = name_.substr(0, name_.find(','));
@@ -129,7 +131,8 @@ class SubstructureReader {
         place = value;
         is_first = true;
       } else if (value > kMostAbaqusDof) {
-        scanner_.fail(fmt::format("'{}' is no degree of freedom.", echo(word)));
+        scanner_.fail(fmt::format(
+            "'{}' is no degree of freedom. Expected 1 to 30.", echo(word)));
       } else {
         dofs.push_back(static_cast<int>(value));
       }
@@ -139,7 +142,8 @@ class SubstructureReader {
 
   void add_values(std::string_view line) {
     for (std::string_view word; !(word = take_word(line)).empty();) {
-      if (row_ >= kMostMatrixRows) scanner_.fail("too many rows.");
+      if (row_ >= kMostMatrixRows)
+        scanner_.fail("too many rows. Expected at most 10 million.");
       const double value = entries_.read(scanner_, word);
       if (value != 0.0) entries_.add(row_, column_, value, scanner_.number());
       if (++column_ > row_) {
@@ -226,7 +230,9 @@ SourceMatrix read_matrix_input(const std::filesystem::path& file) {
     const int column = find_row(take_label(scanner, rest));
     const double value = entries.read(scanner, take_word(rest));
     if (!trim_blanks(rest).empty())
-      scanner.fail("more than node,dof, node,dof, value on this line.");
+      scanner.fail(
+          "more than one entry on this line. Expected node,dof, node,dof, "
+          "value.");
     entries.add(row, column, value, scanner.number());
   }
   if (entries.empty()) scanner.fail_at_end("lines node,dof, node,dof, value");

@@ -99,7 +99,9 @@ class AnsysReader {
     std::string_view rest;
     const FieldFormat whole = next_format("I", rest);
     const FieldFormat real = parse_format(rest, "EDFG");
-    if (real.count < 3) scanner_.fail("no format of three coordinates.");
+    if (real.count < 3)
+      scanner_.fail(
+          "no coordinates. Expected a format of three, as 6e21.13e3.");
     for (;;) {
       if (!scanner_.next_text()) scanner_.fail_at_end("the end of NBLOCK (-1)");
       const std::string_view line = scanner_.line();
@@ -148,7 +150,8 @@ class AnsysReader {
     const std::string_view number =
         trim_blanks(fields[3].substr(0, fields[3].find('!')));
     if (!parse_whole(number, count) || count < 1)
-      scanner_.fail("CMBLOCK without its number of items.");
+      scanner_.fail(
+          "CMBLOCK without its number of items. Expected it in the 4th field.");
     NamedNodes set{std::string(fields[1]), {}};
     std::string_view rest;
     FieldReader items(scanner_, next_format("I", rest));

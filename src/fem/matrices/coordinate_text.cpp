@@ -31,7 +31,8 @@ SourceMatrix read_coordinate_text(const std::filesystem::path& file) {
     }
     const double value = entries.read(scanner, take_word(rest));
     if (!trim_blanks(rest).empty())
-      scanner.fail("more than row, column and value on this line.");
+      scanner.fail(
+          "more than one entry on this line. Expected row, column, value.");
     entries.add(row - 1, column - 1, value, scanner.number());
     size = std::max({size, row, column});
   }

@@ -133,7 +133,8 @@ class InputDeckReader {
   }
 
   void begin(Keyword keyword) {
-    if (continued_) refuse("has data that go on, and the next line does not.");
+    if (continued_)
+      refuse("has a line that ends in a comma. Expected more data after it.");
     finish_equation();
     keyword_ = std::move(keyword);
     const std::string& name = keyword_.name;
@@ -201,7 +202,8 @@ class InputDeckReader {
   double read_real(std::string_view field) const {
     double value = 0.0;
     if (!field.empty() && !parse_real(field, value))
-      scanner_->fail(fmt::format("'{}' is no finite number.", echo(field)));
+      scanner_->fail(
+          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
     return value;
   }
 
@@ -286,7 +288,8 @@ class InputDeckReader {
       const auto& from = is_elset_ ? element_nodes_ : sets_;
       const auto found = from.find(other);
       if (found == from.end())
-        refuse("names the set " + echo(other) + ", which is not before it.");
+        refuse("names the set " + echo(other) +
+               ". Expected it before this line.");
       const std::vector<long> copy = found->second;
       set.insert(set.end(), copy.begin(), copy.end());
     }
@@ -355,9 +358,9 @@ class InputDeckReader {
 
   void finish_equation() {
     if (terms_ != 0 && equation_.terms.size() != terms_)
-      throw InputError(fmt::format("{}: {} terms of an equation of {}.",
-                                   equation_.place, equation_.terms.size(),
-                                   terms_));
+      throw InputError(fmt::format(
+          "{}: {} terms of an equation that states {}. Expected as many.",
+          equation_.place, equation_.terms.size(), terms_));
     if (terms_ != 0) deck_.equations.push_back(std::move(equation_));
     terms_ = 0;
   }

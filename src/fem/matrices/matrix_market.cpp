@@ -73,7 +73,9 @@ MarketHead read_head(TextScanner& scanner) {
         read_index(scanner, sizes, kMostEntries, "number of entries");
   }
   if (!trim_blanks(sizes).empty())
-    scanner.fail("more than the matrix's size on this line.");
+    scanner.fail(
+        "more numbers than expected. Expected rows, columns and, of a "
+        "coordinate file, entries.");
   return head;
 }
 
@@ -90,7 +92,8 @@ void read_coordinates(TextScanner& scanner, const MarketHead& head,
     const long column = read_index(scanner, rest, head.columns, "column");
     const double value = entries.read(scanner, take_word(rest));
     if (!trim_blanks(rest).empty())
-      scanner.fail("more than row, column and value on this line.");
+      scanner.fail(
+          "more than one entry on this line. Expected row, column, value.");
     if (head.is_symmetric && row < column) {
       scanner.fail(
           fmt::format("entry ({}, {}) is above the diagonal. Expected "
@@ -118,7 +121,8 @@ void read_array(TextScanner& scanner, const MarketHead& head,
     }
   }
   if (!trim_blanks(rest).empty())
-    scanner.fail("more values than the matrix's size says.");
+    scanner.fail(
+        "more values than the size says. Expected the end of the file.");
 }
 
 }  // namespace
@@ -140,7 +144,8 @@ SourceMatrix read_matrix_market(const std::filesystem::path& file) {
     read_array(scanner, head, entries);
   }
   if (next_market_line(scanner))
-    scanner.fail("more lines than the matrix's size says.");
+    scanner.fail(
+        "more lines than the size says. Expected the end of the file.");
   SourceMatrix source;
   source.matrix.file = file.string();
   source.format = "Matrix Market";
@@ -163,10 +168,12 @@ std::vector<long> read_node_map(const std::filesystem::path& file) {
     constexpr long kMostNode = 2'000'000'000;
     nodes.push_back(read_index(scanner, rest, kMostNode, "node number"));
     if (!trim_blanks(rest).empty())
-      scanner.fail("more than a node number on this line.");
+      scanner.fail(
+          "more than one number on this line. Expected a node number.");
   }
   if (next_market_line(scanner))
-    scanner.fail("more lines than the vector's size says.");
+    scanner.fail(
+        "more lines than the size says. Expected the end of the file.");
   return nodes;
 }
 

@@ -48,10 +48,13 @@ void check_twice(const SourceMatrix& source) {
 void check_diagonal(const SourceMatrix& source,
                     const std::vector<RowLabel>& labels) {
   const LabelledMatrix& A = source.matrix.entries;
-  for (int j = 0; j < A.outerSize(); ++j) {
-    LabelledMatrix::InnerIterator it(A, j);
-    while (it && it.row() < j) ++it;
-    if (it && it.row() == j) continue;
+  const auto rows = static_cast<int>(labels.size());
+  for (int j = 0; j < rows; ++j) {
+    bool is_there = false;
+    if (j < A.outerSize())
+      for (LabelledMatrix::InnerIterator it(A, j); it && it.row() <= j; ++it)
+        is_there = it.row() == j;
+    if (is_there) continue;
     throw InputError(fmt::format(
         "{}: entry ({}, {}) of row {} is missing. Expected every diagonal "
         "entry: is the file truncated?",

@@ -232,7 +232,8 @@ void FieldReader::end() const {
   const std::size_t start = next_ * format_.width;
   if (next_ == format_.count || start >= scanner_->line().size()) return;
   if (!trim_blanks(scanner_->line().substr(start)).empty())
-    scanner_->fail("more values than the file's head says.");
+    scanner_->fail(
+        "more values than the file's head says. Expected a new line.");
 }
 
 }  // namespace limber::fem
