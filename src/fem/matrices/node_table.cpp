@@ -128,7 +128,7 @@ class NodeTableReader {
           return static_cast<int>(i);
       return -1;
     };
-    const std::array<int, 4> columns = {find({"NODE", "ID", "TAG", "GRID"}),
+    const std::array<int, 4> columns = {find({"NODE", "ID", "TAG"}),
                                         find({"X"}), find({"Y"}), find({"Z"})};
     if (*std::min_element(columns.begin(), columns.end()) < 0) {
       if (!model_.tags.empty() && upper.find("NODE") == std::string::npos)
