@@ -164,6 +164,7 @@ void MatrixEntries::make_symmetric(std::size_t size, SourceMatrix& source) && {
   }
   Sparse& full = source.matrix.entries;
   if (!pairs.has_both) {
+    *this = {};  // its memory
     source.triangles = !pairs.has_single  ? "diagonal"
                        : !pairs.has_upper ? "lower triangle, mirrored"
                        : !pairs.has_lower ? "upper triangle, mirrored"

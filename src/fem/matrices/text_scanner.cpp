@@ -15,8 +15,12 @@ namespace {
 
 constexpr std::size_t kScannerBlock = std::size_t{1} << 20;
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
-constexpr std::string_view kLineBlanks = " \t\r\f\v";
-constexpr std::string_view kWordEnds = " \t\r\f\v,";
+
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+constexpr bool ends_word(char c) { return c == ',' || is_blank(c); }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -97,7 +101,7 @@ bool TextScanner::next() {
   line_ = std::string_view(buffer_).substr(start_, end - start_);
   start_ = std::min(end + 1, buffer_.size());
   if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.remove_prefix(3);
-  line_ = line_.substr(0, line_.find_last_not_of(kLineBlanks) + 1);
+  while (!line_.empty() && is_blank(line_.back())) line_.remove_suffix(1);
   if (line_.find('\0') != std::string_view::npos)
     fail("a zero byte. Expected text.");
   return true;
@@ -119,22 +123,19 @@ void TextScanner::fail_at_end(const std::string& what) const {
 }
 
 std::string_view take_word(std::string_view& rest) {
-  const std::size_t start = rest.find_first_not_of(kWordEnds);
-  if (start == std::string_view::npos) {
-    rest = {};
-    return {};
-  }
-  const std::size_t end =
-      std::min(rest.find_first_of(kWordEnds, start), rest.size());
+  std::size_t start = 0;
+  while (start < rest.size() && ends_word(rest[start])) ++start;
+  std::size_t end = start;
+  while (end < rest.size() && !ends_word(rest[end])) ++end;
   const std::string_view word = rest.substr(start, end - start);
   rest.remove_prefix(end);
   return word;
 }
 
 std::string_view trim_blanks(std::string_view text) {
-  const std::size_t start = text.find_first_not_of(kLineBlanks);
-  if (start == std::string_view::npos) return {};
-  return text.substr(start, text.find_last_not_of(kLineBlanks) + 1 - start);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 std::vector<std::string_view> split_commas(std::string_view line) {
