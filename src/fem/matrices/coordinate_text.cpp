@@ -17,7 +17,7 @@ SourceMatrix read_coordinate_text(const std::filesystem::path& file) {
   long size = 0;
   while (scanner.next_text()) {
     std::string_view rest = scanner.line();
-    if (rest.starts_with('*') || rest.starts_with('%')) continue;
+    if (rest.starts_with('*')) continue;
     const std::string_view first = take_word(rest);
     const std::string_view second = take_word(rest);
     long row = 0;

@@ -9,7 +9,7 @@ namespace limber::fem {
 
 /// Reads lines "row column value", rows from 1: CalculiX's .sti and .mas (upper
 /// triangle), Abaqus' *MATRIX OUTPUT, FORMAT=COORDINATE (both). Lines that
-/// begin with * or % are comments. The size is the largest row.
+/// begin with * are comments. The size is the largest row.
 /// Source: CalculiX 2.20, mastrixstorage; Abaqus Analysis User's Guide,
 /// "Generating structural matrices".
 /// @throws InputError with file and line

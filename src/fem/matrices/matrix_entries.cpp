@@ -105,7 +105,8 @@ double MatrixEntries::read(const TextScanner& scanner, std::string_view text) {
 int MatrixEntries::count_all_digits() const {
   const int most = std::max(digits_, negative_digits_);
   if (is_exact_ || most == 0) return kMostDigits;
-  if (negative_digits_ == digits_ - 1) return negative_digits_;
+  if (negative_digits_ > 0 && negative_digits_ == digits_ - 1)
+    return negative_digits_;
   return std::min(most, kMostDigits);
 }
 

@@ -185,6 +185,8 @@ INSTANTIATE_TEST_SUITE_P(
               "more"},
         Fault{"Complex", "matrix_market", "K.mtx", "real", "complex",
               "K.mtx:1: '%%MatrixMarket matrix coordinate complex"},
+        Fault{"Banner", "matrix_market", "K.mtx", "%%M", "%M",
+              "K.mtx:1: '%MatrixMarket matrix' are no row and column"},
         Fault{"Huge", "matrix_market", "K.mtx", "18 18 ", "99999999999 18 ",
               "K.mtx:3: '99999999999' is no number of rows"},
         Fault{"NotSymmetric", "matrix_market_general", "K.mtx", "\n1 2 ",
@@ -303,6 +305,22 @@ TEST(MatrixFiles, OthersInAFolderArePassedOverAndListed) {
   EXPECT_THROW(static_cast<void>(
                    read_matrices({{folder / "beam.op4", folder / "run.log"}})),
                InputError);
+}
+
+TEST(MatrixFiles, DigitsAreThoseOfNegativeNumbersToo) {
+  // A sign takes the place of a digit in fields of one width.
+  const fs::path folder = copy_sample("matrix_market");
+  const auto digits_with = [&](const char* off_diagonal) {
+    replace_text(folder / "K.mtx",
+                 std::string("%%MatrixMarket matrix coordinate real symmetric\n"
+                             "18 18 2\n1 1 1.234\n2 1 ") +
+                     off_diagonal + "\n");
+    return read_matrices({{folder}}).stiffness.digits;
+  };
+  EXPECT_EQ(digits_with("-1.23"), 3);
+  EXPECT_EQ(digits_with("-1.234"), 4);
+  EXPECT_EQ(digits_with("-1."), 4);
+  EXPECT_EQ(digits_with("1"), 4);
 }
 
 TEST(MatrixFiles, FilesMayBeNamedOneByOne) {
