@@ -260,9 +260,9 @@ void write_shapes(Hdf5File& out, const Scenery& scenery,
     out.write(at + "body", name_body(model, shape.body),
               "body that carries it; empty: the world");
     out.write(at + "kind", shape.form.kind,
-              "box, sphere, cylinder, capsule, plane or mesh");
+              "box, sphere, cylinder, capsule, cone, ellipsoid, plane or mesh");
     out.write(at + "size", MatrixX(shape.form.size.transpose()), "m",
-              "edges, or radius and length");
+              "edges, radii, or radius and length");
     if (shape.form.kind == "mesh") {
       out.write_single(at + "x", shape.form.x, "m", "corners, 3 x n");
       out.write(at + "triangles",

@@ -83,8 +83,16 @@ Solid make_solid(const SolidShape& shape, double edge) {
   if (shape.kind == "box") return make_box(s);
   if (shape.kind == "sphere") return revolve(make_arc(s.x(), 0.0));
   if (shape.kind == "capsule") return revolve(make_arc(s.x(), s.y()));
+  const double h = s.y() / 2.0;
+  if (shape.kind == "cone") {
+    return revolve({{0.0, -h}, {s.x(), -h}, {0.0, h}});
+  }
+  if (shape.kind == "ellipsoid") {
+    Solid solid = revolve(make_arc(1.0, 0.0));
+    solid.x = s.asDiagonal() * solid.x;
+    return solid;
+  }
   if (shape.kind == "cylinder") {
-    const double h = s.y() / 2.0;
     return revolve({{0.0, -h}, {s.x(), -h}, {s.x(), h}, {0.0, h}});
   }
   if (shape.kind == "mesh") return {shape.x, shape.corners};

@@ -13,11 +13,12 @@ namespace limber::results {
 
 /// A shape in its own frame.
 struct SolidShape {
-  /// "box", "sphere", "cylinder", "capsule", "plane" or "mesh"
+  /// "box", "sphere", "cylinder", "capsule", "cone", "ellipsoid", "plane" or
+  /// "mesh"
   std::string kind;
-  /// Box: whole edges; sphere: radius; cylinder and capsule: radius, length
-  /// (of a capsule that of its axis), along z; plane (z = 0) and mesh: none
-  /// [m].
+  /// Box: whole edges; sphere: radius; cylinder, capsule and cone: radius,
+  /// length (of a capsule that of its axis), along z, to a cone's tip;
+  /// ellipsoid: radii; plane (z = 0) and mesh: none [m].
   Vector3 size = Vector3::Zero();
   Matrix3X x;                          ///< 3 x n corners of a mesh [m]
   std::vector<std::uint32_t> corners;  ///< of a mesh, three a triangle, outward

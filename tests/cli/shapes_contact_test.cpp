@@ -146,8 +146,9 @@ TEST(BlockOnABox, SlidesAsCoulombSays) {
 }
 
 TEST(BlockOnABox, LeapsBackAsItsRestitutionSays) {
-  for (const char* geometry :
-       {kBox, "<capsule radius='0.02' length='0.06'/>"}) {
+  for (const char* geometry : {kBox, "<capsule radius='0.02' length='0.06'/>",
+                               "<cone radius='0.05' length='0.1'/>",
+                               "<ellipsoid radii='0.03 0.04 0.05'/>"}) {
     const Workspace place;
     const json run = run_block(place, geometry, 0.01,
                                "friction = 0.0\nrestitution = 0.6\n[gravity]\n"

@@ -35,6 +35,10 @@ Shape draw_shape(RandomDraw& draw, int kind, double size) {
       return {contact::Capsule{size * ratio(), size}, pose};
     case 2:
       return {contact::Cylinder{size * ratio(), size * ratio()}, pose};
+    case 3:
+      return {contact::Cone{size * ratio(), size * ratio()}, pose};
+    case 4:
+      return {contact::Ellipsoid{size * Vector3(1.0, ratio(), ratio())}, pose};
     default:
       return {contact::Box{size * Vector3(1.0, ratio(), ratio())}, pose};
   }
@@ -42,7 +46,8 @@ Shape draw_shape(RandomDraw& draw, int kind, double size) {
 
 const char* name_shape(const Shape& shape) {
   static constexpr const char* kNames[] = {"sphere", "capsule",    "cylinder",
-                                           "box",    "half space", "mesh"};
+                                           "box",    "half space", "mesh",
+                                           "cone",   "ellipsoid"};
   return kNames[shape.kind.index()];
 }
 
@@ -191,7 +196,7 @@ ContactPlan draw_contact(unsigned seed) {
   ContactPlan plan;
   const double size = draw.log_uniform(0.02, 0.5);
   const double speed = draw.log_uniform(0.05, 5.0);
-  const auto kind = [&] { return draw.integer(0, 3); };
+  const auto kind = [&] { return draw.integer(0, 5); };
   plan.bodies.push_back(draw_body(draw, "A", kind(), size));
   plan.bodies.push_back(
       draw.chance(1.0 / 3.0)

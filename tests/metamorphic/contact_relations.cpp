@@ -100,6 +100,11 @@ void scale(contact::Shape& shape, double factor) {
   } else if (auto* cylinder = std::get_if<contact::Cylinder>(&shape.kind)) {
     cylinder->radius *= factor;
     cylinder->half_length *= factor;
+  } else if (auto* cone = std::get_if<contact::Cone>(&shape.kind)) {
+    cone->radius *= factor;
+    cone->half_length *= factor;
+  } else if (auto* egg = std::get_if<contact::Ellipsoid>(&shape.kind)) {
+    egg->radii *= factor;
   } else if (auto* box = std::get_if<contact::Box>(&shape.kind)) {
     box->half_size *= factor;
   }

@@ -181,7 +181,8 @@ class StrikeOf : public ::testing::Test {
 bool has_friction_of_a_point(const ContactPlan& plan) {
   const auto is_smooth = [](const StrikingBody& body) {
     return std::holds_alternative<contact::Sphere>(body.shape.kind) ||
-           std::holds_alternative<contact::Capsule>(body.shape.kind);
+           std::holds_alternative<contact::Capsule>(body.shape.kind) ||
+           std::holds_alternative<contact::Ellipsoid>(body.shape.kind);
   };
   return plan.parameters.friction.sliding > 0.0 && is_smooth(plan.bodies[0]) &&
          (is_smooth(plan.bodies[1]) || plan.bodies[1].is_world());

@@ -66,6 +66,12 @@ std::optional<results::SolidShape> find_solid_shape(
           [&](const scene::CapsuleGeometry& capsule) {
             return make("capsule", {capsule.radius, capsule.length, 0.0});
           },
+          [&](const scene::ConeGeometry& cone) {
+            return make("cone", {cone.radius, cone.length, 0.0});
+          },
+          [&](const scene::EllipsoidGeometry& ellipsoid) {
+            return make("ellipsoid", ellipsoid.radii);
+          },
           [&](const scene::PlaneGeometry&) {
             return make("plane", Vector3::Zero());
           },

@@ -5,7 +5,7 @@
 
 #include "limber/contact/patches/patch_finder.hpp"
 #include "limber/contact/patches/patch_frames.hpp"
-#include "limber/contact/potential/series_potential.hpp"
+#include "limber/contact/patches/series_potential.hpp"
 
 namespace limber::contact {
 

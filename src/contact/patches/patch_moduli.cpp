@@ -33,6 +33,8 @@ double find_curvature(const Kind& kind) {
       Overloaded{[](const Sphere& ball) { return 1.0 / ball.radius; },
                  [](const Capsule& rod) { return 0.5 / rod.radius; },
                  [](const Cylinder& rod) { return 0.5 / rod.radius; },
+                 [](const Cone& cone) { return 0.5 / cone.radius; },
+                 [](const Ellipsoid& body) { return 3.0 / body.radii.sum(); },
                  [](const auto&) { return 0.0; }},
       kind);
 }

@@ -8,7 +8,8 @@ namespace limber::contact {
 
 /// Radius R_e of a pair for Hertz's k and for bodies without a material: of
 /// round sides by the sum of their mean curvatures (a ball 1 / r, the side of a
-/// cylinder or capsule 1 / (2 r)); where none is round, the larger one of half
+/// cylinder or capsule, and a cone's disc, 1 / (2 r), an ellipsoid that of its
+/// mean radius); where none is round, the larger one of half
 /// the shortest edges, of a rigid mesh of half its least width normal to a face
 /// [m].
 [[nodiscard]] double find_touch_radius(const ContactSide& A,

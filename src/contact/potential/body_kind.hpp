@@ -8,7 +8,8 @@
 namespace limber::contact {
 
 /// A convex body in its own frame; boxes and half spaces are solids.
-using BodyKind = std::variant<Sphere, Capsule, Cylinder, ConvexSolid>;
+using BodyKind =
+    std::variant<Sphere, Capsule, Cylinder, ConvexSolid, Cone, Ellipsoid>;
 
 /// In the frame of a rigid body, or of a part of a flexible one.
 struct PlacedBody {

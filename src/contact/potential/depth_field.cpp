@@ -4,62 +4,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <variant>
+
+#include "limber/contact/shapes/cone_field.hpp"
+#include "limber/contact/shapes/ellipsoid_field.hpp"
+#include "limber/contact/shapes/line_cuts.hpp"
 
 namespace limber::contact {
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::max();
-
 double power4(double t) { return t * t * t * t; }
-
-Span intersect(const Span& a, const Span& b) {
-  return {std::max(a.first, b.first), std::min(a.last, b.last)};
-}
-
-// |p + v m| <= h
-Span find_slab(double p, double m, double h) {
-  if (m == 0.0)
-    return std::abs(p) <= h ? Span{-kUnbounded, kUnbounded} : Span{};
-  const double middle = -p / m;
-  const double half = h / std::abs(m);
-  return {middle - half, middle + half};
-}
-
-// |o + v w| <= R, of vectors of two or three components
-template <typename Vector>
-Span find_chord(const Vector& o, const Vector& w, double radius) {
-  const double a = w.squaredNorm();
-  if (!(a > 0.0)) {
-    return o.norm() <= radius ? Span{-kUnbounded, kUnbounded} : Span{};
-  }
-  const double middle = -o.dot(w) / a;
-  const double square = radius * radius - (o + middle * w).squaredNorm();
-  if (!(square > 0.0)) return {};
-  const double half = std::sqrt(square / a);
-  return {middle - half, middle + half};
-}
-
-// v of the least |o + v w|
-template <typename Vector>
-double find_nearest_v(const Vector& o, const Vector& w) {
-  const double a = w.squaredNorm();
-  return a > 0.0 ? -o.dot(w) / a : 0.0;
-}
-
-double clamp_to(const Span& span, double v) {
-  return std::clamp(v, span.first, span.last);
-}
 
 // ---- ball: phi = int 4 s^3 (R - s)^2 ds / (R - t)^2
 Depth find_round(const Vector3& from_middle, double R) {
   const double rho = from_middle.norm();
   const double t = R - rho;
-  return {
-      t, -from_middle / rho,
-      power4(t) * (R * R - 1.6 * R * t + (2.0 / 3.0) * t * t) / (rho * rho)};
+  const Vector3 gradient = -from_middle / rho;
+  return {t, gradient,
+          power4(t) * (R * R - 1.6 * R * t + (2.0 / 3.0) * t * t) /
+              (rho * rho) * gradient};
 }
 Depth find(const Sphere& shape, const Vector3& x) {
   return find_round(x, shape.radius);
@@ -80,7 +44,8 @@ Depth find_side(const Vector3& x, double R) {
   const Vector3 out(x.x(), x.y(), 0.0);
   const double rho = out.norm();
   const double t = R - rho;
-  return {t, -out / rho, power4(t) * (R - 0.8 * t) / rho};
+  const Vector3 gradient = -out / rho;
+  return {t, gradient, power4(t) * (R - 0.8 * t) / rho * gradient};
 }
 
 // ---- capsule: its side and two balls
@@ -89,26 +54,16 @@ Depth find(const Capsule& shape, const Vector3& x) {
   if (end == x.z()) return find_side(x, shape.radius);
   return find_round(x - end * Vector3::UnitZ(), shape.radius);
 }
+// Nearest to the axis: of the endless line, of it and the place clamped to the
+// axis, then clamped to its own ends.
 double deepest(const Capsule& shape, const StraightLine& line) {
   const Vector3& o = line.origin;
   const Vector3& w = line.way;
-  const Vector3 end = shape.half_length * Vector3::UnitZ();
-  double best = clamp_to(
-      line.span, find_nearest_v<Eigen::Vector2d>(o.head<2>(), w.head<2>()));
-  double depth = find(shape, line.at(best)).t;
-  const auto consider = [&](double v) {
-    const double at = clamp_to(line.span, v);
-    const double t = find(shape, line.at(at)).t;
-    if (t > depth) {
-      depth = t;
-      best = at;
-    }
-  };
-  for (const double sign : {-1.0, 1.0}) {
-    consider(find_nearest_v<Vector3>(o - sign * end, w));
-    if (w.z() != 0.0) consider((sign * shape.half_length - o.z()) / w.z());
-  }
-  return best;
+  const double v = find_nearest_v<Eigen::Vector2d>(o.head<2>(), w.head<2>());
+  const double half = shape.half_length;
+  const double on_axis = std::clamp(o.z() + v * w.z(), -half, half);
+  return clamp_to(line.span,
+                  find_nearest_v<Vector3>(o - on_axis * Vector3::UnitZ(), w));
 }
 Span part_within(const Capsule& shape, const StraightLine& line) {
   const Vector3& o = line.origin;
@@ -143,7 +98,8 @@ Depth find(const Cylinder& shape, const Vector3& x) {
   if (shape.radius - x.head<2>().norm() <= end) {
     return find_side(x, shape.radius);
   }
-  return {end, -std::copysign(1.0, x.z()) * Vector3::UnitZ(), power4(end)};
+  const Vector3 gradient = -std::copysign(1.0, x.z()) * Vector3::UnitZ();
+  return {end, gradient, power4(end) * gradient};
 }
 // Where side and end of the sign s are equally near.
 std::array<double, 2> find_rim_crossings(const Cylinder& shape,
@@ -238,12 +194,46 @@ double find_half_width(const Cylinder& shape, const Vector3& n) {
          shape.half_length * std::abs(n.z());
 }
 
+// ---- cone and ellipsoid
+double deepest(const Cone& shape, const StraightLine& line) {
+  return ConeField(shape).find_deepest(line);
+}
+Span part_within(const Cone& shape, const StraightLine& line) {
+  return ConeField(shape).cut(line);
+}
+void split(const Cone& shape, const StraightLine& line, const Span& part,
+           LinePieces& out) {
+  ConeField(shape).divide(line, part, out);
+}
+double deepest(const Ellipsoid& shape, const StraightLine& line) {
+  return EllipsoidField(shape).find_deepest(line);
+}
+Span part_within(const Ellipsoid& shape, const StraightLine& line) {
+  return EllipsoidField(shape).cut(line);
+}
+void split(const Ellipsoid& /*shape*/, const StraightLine& /*line*/,
+           const Span& part, LinePieces& out) {
+  out.add() = {0, part.last};
+}
+double find_half_width(const Ellipsoid& shape, const Vector3& n) {
+  return shape.radii.cwiseProduct(n).norm();
+}
+
 // ---- as the round ones
-Depth find_of(const SolidField& solid, const Vector3& x, int face) {
+Depth find_of(const SolidField& solid, const Vector3& x, int face,
+              bool /*by_tip*/) {
   return solid.find_depth(x, face);
 }
+Depth find_of(const Cone& shape, const Vector3& x, int /*face*/, bool by_tip) {
+  return ConeField(shape).find_depth(x, by_tip);
+}
+Depth find_of(const Ellipsoid& shape, const Vector3& x, int /*face*/,
+              bool /*by_tip*/) {
+  return EllipsoidField(shape).find_depth(x);
+}
 template <typename Round>
-Depth find_of(const Round& shape, const Vector3& x, int /*face*/) {
+Depth find_of(const Round& shape, const Vector3& x, int /*face*/,
+              bool /*by_tip*/) {
   return find(shape, x);
 }
 double deepest(const SolidField& solid, const StraightLine& line) {
@@ -259,6 +249,12 @@ void split(const SolidField& solid, const StraightLine& line, const Span& part,
 double find_t_of(const SolidField& solid, const Vector3& x) {
   return solid.find_t(x);
 }
+double find_t_of(const Cone& shape, const Vector3& x) {
+  return ConeField(shape).find_t(x);
+}
+double find_t_of(const Ellipsoid& shape, const Vector3& x) {
+  return EllipsoidField(shape).find_bound(x);
+}
 template <typename Round>
 double find_t_of(const Round& shape, const Vector3& x) {
   return find(shape, x).t;
@@ -267,6 +263,11 @@ Span find_extent_of(const SolidField& field, const Vector3& n) {
   const ConvexSolid& solid = field.solid();
   if (!solid.is_bounded()) return {-kUnbounded, kUnbounded};
   return {solid.find_low(n), solid.find_high(n)};
+}
+Span find_extent_of(const Cone& shape, const Vector3& n) {
+  const double tip = n.z() * shape.half_length;
+  const double rim = shape.radius * n.head<2>().norm();
+  return {std::min(tip, -tip - rim), std::max(tip, -tip + rim)};
 }
 template <typename Round>
 Span find_extent_of(const Round& shape, const Vector3& n) {
@@ -300,9 +301,10 @@ double DepthField::find_t(const Vector3& x) const {
                     kind_);
 }
 
-Depth DepthField::find_depth(const Vector3& x, int face) const {
-  return std::visit([&](const auto& shape) { return find_of(shape, x, face); },
-                    kind_);
+Depth DepthField::find_depth(const Vector3& x, int face, bool by_tip) const {
+  return std::visit(
+      [&](const auto& shape) { return find_of(shape, x, face, by_tip); },
+      kind_);
 }
 
 double DepthField::find_deepest(const StraightLine& line) const {

@@ -16,7 +16,8 @@ namespace limber::contact {
 /// Limits     of round bodies less deep than their middle
 class DepthField {
  public:
-  using Kind = std::variant<Sphere, Capsule, Cylinder, SolidField>;
+  using Kind =
+      std::variant<Sphere, Capsule, Cylinder, SolidField, Cone, Ellipsoid>;
 
   /// @throws ContractError for a solid of more than SolidField::kMostFaces.
   explicit DepthField(const BodyKind& body);
@@ -25,10 +26,13 @@ class DepthField {
   /// Whether all faces are flat.
   [[nodiscard]] bool is_flat() const;
 
+  /// Of an ellipsoid EllipsoidField::find_bound.
   [[nodiscard]] double find_t(const Vector3& x) const;
   /// @param face nearest to x, of a LinePiece
-  [[nodiscard]] Depth find_depth(const Vector3& x, int face) const;
-  /// v of the deepest point of a line.
+  /// @param by_tip see ConeField
+  [[nodiscard]] Depth find_depth(const Vector3& x, int face,
+                                 bool by_tip = false) const;
+  /// v of the deepest point of a line, by find_t.
   [[nodiscard]] double find_deepest(const StraightLine& line) const;
   /// The part of a line within the body.
   [[nodiscard]] Span cut(const StraightLine& line) const;

@@ -51,11 +51,27 @@ Matrix6 shift(const Vector3& d) {
   return T;
 }
 
+// About each axis, 0 where both radii across it are equal.
+Vector3 find_share(const Ellipsoid& body) {
+  Vector3 share;
+  for (int i = 0; i < 3; ++i) {
+    const double a = body.radii[(i + 1) % 3];
+    const double b = body.radii[(i + 2) % 3];
+    share[i] = std::abs(a - b) / std::max(a, b);
+  }
+  return share;
+}
+
 // In the body's frame.
 Matrix3 find_moving_turns(const PlacedBody& body) {
   if (std::holds_alternative<Sphere>(body.kind)) return Matrix3::Zero();
+  if (const auto* egg = std::get_if<Ellipsoid>(&body.kind)) {
+    const Matrix3& R = body.X_BS.R;
+    return R * find_share(*egg).asDiagonal() * R.transpose();
+  }
   const bool is_round = std::holds_alternative<Capsule>(body.kind) ||
-                        std::holds_alternative<Cylinder>(body.kind);
+                        std::holds_alternative<Cylinder>(body.kind) ||
+                        std::holds_alternative<Cone>(body.kind);
   if (!is_round) return Matrix3::Identity();
   const Vector3 axis = body.X_BS.R.col(2);
   return Matrix3::Identity() - axis * axis.transpose();
@@ -81,7 +97,7 @@ Vector3 find_middle(const Polytope& polytope) {
 
 bool PairPotential::suits(const BodyKind& A, const BodyKind& B) {
   if (are_capsules(A, B) || HertzPair::suits(A, B) ||
-      BallOnCapsule::suits(A, B)) {
+      BallOnCapsule::suits(A, B) || SmoothPair::suits(A, B)) {
     return true;
   }
   const auto* of_A = std::get_if<ConvexSolid>(&A);
@@ -106,6 +122,10 @@ PairPotential::PairPotential(const PlacedBody& A, const PlacedBody& B,
   }
   if (BallOnCapsule::suits(A.kind, B.kind)) {
     on_capsule_.emplace(A.kind, B.kind, modulus);
+    return;
+  }
+  if (SmoothPair::suits(A.kind, B.kind)) {
+    smooth_.emplace(A.kind, B.kind, modulus);
     return;
   }
   if (are_capsules(A.kind, B.kind)) {
@@ -162,6 +182,7 @@ Patch PairPotential::press(const Pose& X_A, const Pose& X_B,
                            bool has_derivatives) const {
   if (point_) return point_->evaluate(X_A, X_B);
   if (on_capsule_) return on_capsule_->evaluate(X_A, X_B);
+  if (smooth_) return smooth_->evaluate(X_A, X_B);
   if (capsules_) return press_capsules(X_A, X_B, has_derivatives);
   Patch out;
   const auto moments = find_moments(X_A, X_B, has_derivatives);

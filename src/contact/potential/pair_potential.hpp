@@ -10,6 +10,7 @@
 #include "limber/contact/potential/hertz_pair.hpp"
 #include "limber/contact/potential/patch.hpp"
 #include "limber/contact/potential/round_pair.hpp"
+#include "limber/contact/potential/smooth_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
@@ -20,8 +21,8 @@ namespace limber::contact {
 /// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
 ///            that of a round punch [@johnson1985]; f = 1 of polyhedra, else of
-///            RoundPair; of balls as HertzPair and BallOnCapsule, of two
-///            capsules as CapsulePair
+///            RoundPair; of balls as HertzPair and BallOnCapsule, of
+///            ellipsoids as SmoothPair, of two capsules as CapsulePair
 /// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
@@ -37,13 +38,13 @@ class PairPotential {
                                const Vector3& shift_W = Vector3::Zero()) const;
 
   [[nodiscard]] double modulus() const { return modulus_; }
-  /// Whether a ball touches something smooth.
+  /// Whether a ball or ellipsoid touches something smooth.
   [[nodiscard]] bool is_point() const {
-    return point_.has_value() || on_capsule_.has_value();
+    return point_.has_value() || on_capsule_.has_value() || smooth_.has_value();
   }
 
-  /// Two solids, one of them bounded, two capsules, or as RoundPair, HertzPair
-  /// or BallOnCapsule.
+  /// Two solids, one of them bounded, two capsules, or as RoundPair, HertzPair,
+  /// BallOnCapsule or SmoothPair.
   [[nodiscard]] static bool suits(const BodyKind& A, const BodyKind& B);
 
  private:
@@ -63,6 +64,7 @@ class PairPotential {
   std::optional<CapsulePair> capsules_;
   std::optional<HertzPair> point_;
   std::optional<BallOnCapsule> on_capsule_;
+  std::optional<SmoothPair> smooth_;
   // See Patch, in the bodies' frames.
   Matrix3 turns_A_ = Matrix3::Identity();
   Matrix3 turns_B_ = Matrix3::Identity();

@@ -34,6 +34,14 @@ Vector3 choose_way(const Capsule& /*soft*/, const Vector3& /*n*/) {
 Vector3 choose_way(const Cylinder& /*soft*/, const Vector3& /*n*/) {
   return Vector3::UnitZ();
 }
+Vector3 choose_way(const Cone& /*soft*/, const Vector3& /*n*/) {
+  return Vector3::UnitZ();
+}
+Vector3 choose_way(const Ellipsoid& soft, const Vector3& /*n*/) {
+  Eigen::Index longest = 0;
+  soft.radii.maxCoeff(&longest);
+  return Vector3::Unit(longest);
+}
 // The edge of the face that is opposite which is most in the plane.
 Vector3 choose_way(const SolidField& soft, const Vector3& n) {
   const ConvexSolid& solid = soft.solid();
@@ -73,6 +81,10 @@ double find_radius(const Capsule& shape) {
 double find_radius(const Cylinder& shape) {
   return std::hypot(shape.half_length, shape.radius);
 }
+double find_radius(const Cone& shape) {
+  return std::hypot(shape.half_length, shape.radius);
+}
+double find_radius(const Ellipsoid& shape) { return shape.radii.maxCoeff(); }
 double find_radius(const SolidField& field) {
   const ConvexSolid& solid = field.solid();
   if (!solid.is_bounded()) return 0.0;
@@ -111,6 +123,32 @@ void add_rims(const Cylinder& shape, std::vector<RuledSurface>& out) {
     rim.half_v = std::min(shape.radius, shape.half_length);
     rim.reach = std::hypot(rim.radius, rim.half_v);
   }
+}
+
+void add_cone(const Cone& shape, std::vector<RuledSurface>& surfaces,
+              std::vector<RuledSurface>& sheets) {
+  const double slant = std::hypot(shape.radius, 2.0 * shape.half_length);
+  RuledSurface& side = surfaces.emplace_back();
+  side.kind = Kind::kSide;
+  side.radius = 0.5 * shape.radius;
+  side.sine = shape.radius / slant;
+  side.u = {-std::numbers::pi, std::numbers::pi};
+  side.half_v = 0.5 * slant;
+  side.reach = find_radius(shape);
+  RuledSurface disc;
+  disc.kind = Kind::kDisc;
+  disc.e3 = -Vector3::UnitZ();
+  disc.centre = shape.half_length * disc.e3;
+  disc.radius = disc.reach = shape.radius;
+  disc.u = {-0.5 * std::numbers::pi, 0.5 * std::numbers::pi};
+  surfaces.push_back(disc);
+  RuledSurface rim = disc;
+  rim.kind = Kind::kRim;
+  rim.sine = side.sine;
+  rim.u = side.u;
+  rim.half_v = 2.0 * shape.half_length * side.sine / (1.0 + side.sine);
+  rim.reach = std::hypot(rim.radius, rim.half_v);
+  sheets.push_back(rim);
 }
 
 RuledSurface add_polygon(std::span<const Vector3> corners,
@@ -199,6 +237,9 @@ RuledBody::RuledBody(const BodyKind& body) {
     add_side(*cylinder, data->surfaces);
     add_ends(*cylinder, data->surfaces);
     add_rims(*cylinder, data->sheets);
+  }
+  if (const auto* cone = std::get_if<Cone>(&body)) {
+    add_cone(*cone, data->surfaces, data->sheets);
   }
   if (const auto* solid = std::get_if<ConvexSolid>(&body)) {
     add_faces(*solid, data->surfaces, data->outlines);

@@ -18,6 +18,15 @@ Vector3 find_radial(const RuledSurface& surface, double u) {
   return std::cos(u) * surface.e1 + std::sin(u) * surface.e2;
 }
 
+double find_cosine(const RuledSurface& surface) {
+  return std::sqrt(1.0 - surface.sine * surface.sine);
+}
+
+// cot(b / 2) = (1 + cos b) / sin b
+double find_rim_slope(const RuledSurface& rim) {
+  return (1.0 + rim.sine) / find_cosine(rim);
+}
+
 // Of corners along the axes of the outline, in those of the rows.
 Vector2 turn_corner(const Vector2& x, const Vector2& row) {
   return {x[0] * row[1] - x[1] * row[0], x.dot(row)};
@@ -102,33 +111,50 @@ StraightLine RuledSurface::find_line(double at) const {
       const double half = radius * std::cos(at);
       return {centre + radius * std::sin(at) * e1, e2, {-half, half}};
     }
-    case Kind::kSide:
-      return {centre + radius * find_radial(*this, at), e3, {-half_v, half_v}};
+    case Kind::kSide: {
+      const Vector3 radial = find_radial(*this, at);
+      return {centre + radius * radial,
+              find_cosine(*this) * e3 - sine * radial,
+              {-half_v, half_v}};
+    }
     case Kind::kRim:
       break;
   }
   const Vector3 radial = find_radial(*this, at);
-  return {centre + radius * radial, -radial - e3, {0.0, half_v}};
+  return {centre + radius * radial,
+          -find_rim_slope(*this) * radial - e3,
+          {0.0, half_v}};
 }
 
 Vector3 RuledSurface::find_area(double at) const {
   if (is_flat()) return e3;
   if (kind == Kind::kDisc) return radius * std::cos(at) * e3;
-  return radius * find_radial(*this, at);
+  const Vector3 radial = find_radial(*this, at);
+  return radius * (find_cosine(*this) * radial + sine * e3);
 }
 
-// Rim: side t^4 (R - 0.8 t) / (R - t), end t^4, dS = sqrt(2) (R - t) du dv, by
-// each 1 / sqrt(2).
-double RuledSurface::find_flux(const Span& span) const {
+// Rim, R - t k in radius, dS = (R - t k) du dv / sin(b / 2), k = cot(b / 2), b
+// its angle, 90 degrees of a cylinder: of the end t^4 cos(b / 2), of the side
+// t^4 (1 + 0.2 t cos a / (R - t k)) cos(b / 2), by tip 2/3 t^3 l sin(b / 2), l
+// from the rim to the tip.
+double RuledSurface::find_flux(const Span& span, bool by_tip) const {
   if (kind != Kind::kRim) return density * integrate_power(*this, span);
+  const double k = find_rim_slope(*this);
   const auto integral = [&](double v) {
-    return (0.4 * radius - 0.3 * v) * std::pow(v, 5);
+    const double of_end = k * (radius / 5.0 - k * v / 6.0) * std::pow(v, 5);
+    if (!by_tip) {
+      return 2.0 * of_end + k * find_cosine(*this) / 30.0 * std::pow(v, 6);
+    }
+    const double slant = radius / sine;
+    return of_end +
+           2.0 / 3.0 * slant * (radius / 4.0 - k * v / 5.0) * std::pow(v, 4);
   };
   return integral(span.last) - integral(span.first);
 }
 
 double RuledSurface::find_speed() const {
   if (kind == Kind::kPlane) return 1.0;
+  if (narrows()) return 2.0 * radius;  // of the disc
   if (kind != Kind::kPolygon) return radius;
   constexpr double kSteep = 1e-9;  // of an edge along the rows [-]
   double steepest = 0.0;

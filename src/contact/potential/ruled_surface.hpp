@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
-#include "limber/contact/potential/straight_line.hpp"
+#include "limber/contact/shapes/straight_line.hpp"
 
 namespace limber::contact {
 
@@ -20,18 +20,20 @@ struct RuledSurface {
     kPlane,    ///< square: u along e1, v along e2
     kPolygon,  ///< convex: u along e1, v along e2
     kDisc,     ///< u an angle: at radius sin u along e1, v along e2
-    kSide,     ///< of a cylinder: u the angle from e1 to e2, v along e3
-    kRim       ///< sheet of a cylinder's rim, e3 outward; v the depth
+    kSide,     ///< of a cylinder or cone: u the angle from e1 to e2, v along
+               ///< e3, towards its tip
+    kRim       ///< sheet of its rim, e3 outward; v the depth
   };
   Kind kind = Kind::kPlane;
   Vector3 centre = Vector3::Zero();
   Vector3 e1 = Vector3::UnitX();
   Vector3 e2 = Vector3::UnitY();
   Vector3 e3 = Vector3::UnitZ();  ///< outward normal of a flat or disc
-  double radius = 0.0;            ///< of a disc, side or rim [m]
-  Span u;                         ///< of its lines [m or rad]
-  double half_v = 0.0;            ///< |v|, or the largest v of a rim [m]
-  double reach = 0.0;             ///< of a ball about the centre [m]
+  double radius = 0.0;            ///< of a disc, side (half way) or rim [m]
+  double sine = 0.0;    ///< of half of the angle at the tip, 0 of a cylinder
+  Span u;               ///< of its lines [m or rad]
+  double half_v = 0.0;  ///< |v|, or the largest v of a rim [m]
+  double reach = 0.0;   ///< of a ball about the centre [m]
 
   /// Corners of a polygon, counterclockwise about e3, from the centre [m].
   FlatOutline outline;
@@ -46,16 +48,27 @@ struct RuledSurface {
   [[nodiscard]] bool is_flat() const {
     return kind == Kind::kPlane || kind == Kind::kPolygon;
   }
+  [[nodiscard]] bool has_one_normal() const {
+    return is_flat() || kind == Kind::kDisc;
+  }
   /// Whether u is an angle that turns all around.
   [[nodiscard]] bool is_closed() const {
     return kind == Kind::kSide || kind == Kind::kRim;
   }
   [[nodiscard]] StraightLine find_line(double u) const;
-  /// Outward normal times the area by du dv; of no sheet.
+  /// Outward normal times the area by du dv at v = 0; of no sheet.
   [[nodiscard]] Vector3 find_area(double u) const;
-  /// Of a sheet, over a span of a line: flux of phi grad t out of the cells
-  /// beside it, by du.
-  [[nodiscard]] double find_flux(const Span& span) const;
+  /// The area at v, over that at v = 0.
+  [[nodiscard]] double find_width(double v) const {
+    return narrows() ? 1.0 - v * sine / radius : 1.0;
+  }
+  /// Whether lines meet in a tip.
+  [[nodiscard]] bool narrows() const {
+    return kind == Kind::kSide && sine > 0.0;
+  }
+  /// Of a sheet, over a span of a line: Depth::flux out of the cells beside
+  /// it, by du. @param by_tip see ConeField
+  [[nodiscard]] double find_flux(const Span& span, bool by_tip) const;
   /// At least that of a point of the line, by du.
   [[nodiscard]] double find_speed() const;
   /// (u, v) of a corner of the outline.

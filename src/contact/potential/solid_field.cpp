@@ -83,7 +83,7 @@ double SolidField::find_t(const Vector3& x) const {
 Depth SolidField::find_depth(const Vector3& x, int face) const {
   const Plane& plane = planes_[index(face)];
   const double t = plane.find_depth(x);
-  return {t, -plane.n, t * t * t * t};
+  return {t, -plane.n, -(t * t * t * t) * plane.n};
 }
 
 double SolidField::find_deepest(const StraightLine& line) const {

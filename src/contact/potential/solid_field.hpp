@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limber/contact/potential/convex_solid.hpp"
-#include "limber/contact/potential/straight_line.hpp"
+#include "limber/contact/shapes/straight_line.hpp"
 
 namespace limber::contact {
 

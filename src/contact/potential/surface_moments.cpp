@@ -2,204 +2,40 @@
 #include "limber/contact/potential/surface_moments.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 
-#include "limber/common/stack_array.hpp"
 #include "limber/contact/potential/line_rule.hpp"
+#include "limber/contact/potential/surface_sums.hpp"
 
 namespace limber::contact {
 namespace {
-
-using Weights10 = Eigen::Matrix<double, 10, 1>;
-using Slopes = Eigen::Matrix<double, 10, 6>;
-
-// 1, r and r r': xx, yy, zz, xy, xz, yz
-Weights10 find_powers(const Vector3& r) {
-  Weights10 powers;
-  powers << 1.0, r, r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
-  return powers;
-}
-
-Matrix3 unfold(const Eigen::Matrix<double, 6, 1>& s) {
-  Matrix3 square;
-  square << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-  return square;
-}
-
-/// Of one line, whose normal is n, or of all, by components of n: with p the
-/// powers of r about o
-struct LineSums {
-  Weights10 cubed = Weights10::Zero();  ///< int 4 t^3 p
-  Slopes by_motion = Slopes::Zero();    ///< int 12 t^2 p g'
-  Vector3 flux = Vector3::Zero();       ///< int phi grad t
-
-  void add(const Depth& depth, const Vector3& r, double weight) {
-    const double t2 = depth.t * depth.t;
-    const Weights10 powers = find_powers(r);
-    flux += weight * depth.flux * depth.gradient;
-    cubed += (4.0 * weight * t2 * depth.t) * powers;
-    Vector6 g;
-    g << depth.gradient, r.cross(depth.gradient);
-    by_motion += ((12.0 * weight * t2) * powers) * g.transpose();
-  }
-};
-
-/// Sums over the surface of `hard`.
-struct SurfaceSums {
-  double flux = 0.0;
-  std::array<Weights10, 3> cubed;   // int 4 t^3 n_k p dS
-  std::array<Slopes, 3> by_motion;  // int 12 t^2 n_k p g' dS
-
-  SurfaceSums() {
-    cubed.fill(Weights10::Zero());
-    by_motion.fill(Slopes::Zero());
-  }
-
-  [[nodiscard]] static LineSums begin_line() { return {}; }
-  void add(const LineSums& line, const Vector3& area) {
-    flux += line.flux.dot(area);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double n = area[static_cast<Eigen::Index>(k)];
-      if (n == 0.0) continue;
-      cubed[k] += n * line.cubed;
-      by_motion[k] += n * line.by_motion;
-    }
-  }
-
-  [[nodiscard]] Vector6 find_wrench() const {
-    Matrix3 first;  // by rows n r'
-    Vector6 wrench;
-    for (int k = 0; k < 3; ++k) {
-      const Weights10& sums = cubed[static_cast<std::size_t>(k)];
-      wrench[k] = sums[0];
-      first.row(k) = sums.segment<3>(1).transpose();
-    }
-    wrench.tail<3>() = find_moment(first);
-    return wrench;
-  }
-
-  // int 12 t^2 (n, r x n) g' dS
-  [[nodiscard]] Matrix6 find_stiffness() const {
-    Matrix6 all;
-    for (int i = 0; i < 6; ++i) {
-      Matrix3 first;
-      for (int k = 0; k < 3; ++k) {
-        const Slopes& sums = by_motion[static_cast<std::size_t>(k)];
-        all(k, i) = sums(0, i);
-        first.row(k) = sums.block<3, 1>(1, i).transpose();
-      }
-      all.col(i).tail<3>() = find_moment(first);
-    }
-    return all;
-  }
-
-  // r x n of n r'
-  [[nodiscard]] static Vector3 find_moment(const Matrix3& first) {
-    return {first(2, 1) - first(1, 2), first(0, 2) - first(2, 0),
-            first(1, 0) - first(0, 1)};
-  }
-};
-
-/// SurfaceSums that keep their points, up to a number, for sums of them again.
-class KeptSums {
- public:
-  struct Point {
-    Depth depth;
-    Vector3 r = Vector3::Zero();
-    double weight = 0.0;             // along its line
-    Vector3 area = Vector3::Zero();  // that it stands for
-  };
-  struct Line {
-    KeptSums& all;
-    std::size_t first;  // point
-    LineSums sums = {};
-
-    void add(const Depth& depth, const Vector3& r, double weight) {
-      sums.add(depth, r, weight);
-      all.keep({.depth = depth, .r = r, .weight = weight});
-    }
-  };
-
-  [[nodiscard]] Line begin_line() { return {*this, points_.all().size()}; }
-  void add(const Line& line, const Vector3& area) {
-    sums_.add(line.sums, area);
-    for (Point& point : points_.all().subspan(line.first)) {
-      point.area = point.weight * area;
-    }
-  }
-
-  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }
-  [[nodiscard]] bool has_all_points() const { return has_all_; }
-  [[nodiscard]] std::span<const Point> points() const { return points_.all(); }
-
- private:
-  static constexpr std::size_t kMost = 2048;
-
-  void keep(const Point& point) {
-    has_all_ = has_all_ && points_.all().size() < kMost;
-    if (has_all_) points_.add() = point;
-  }
-
-  SurfaceSums sums_;
-  bool has_all_ = true;
-  StackArray<Point, kMost> points_;
-};
-
-/// int 24 t (a . p) g g' dS, with the area along n.
-class BendSums {
- public:
-  BendSums(const Weights10& a, const Vector3& n) : a_(a), n_(n) {}
-
-  struct Line {
-    Weights10 a;
-    Matrix6 bend = Matrix6::Zero();
-
-    void add(const Depth& depth, const Vector3& r, double weight) {
-      Vector6 g;
-      g << depth.gradient, r.cross(depth.gradient);
-      const double by = 24.0 * weight * depth.t * a.dot(find_powers(r));
-      bend += (by * g) * g.transpose();
-    }
-  };
-
-  [[nodiscard]] Line begin_line() const { return {a_}; }
-  void add(const Line& line, const Vector3& area) {
-    bend_ += n_.dot(area) * line.bend;
-  }
-  void add(std::span<const KeptSums::Point> points) {
-    for (const KeptSums::Point& point : points) {
-      Line line = begin_line();
-      line.add(point.depth, point.r, 1.0);
-      add(line, point.area);
-    }
-  }
-  [[nodiscard]] const Matrix6& bend() const { return bend_; }
-
- private:
-  Weights10 a_;
-  Vector3 n_;
-  Matrix6 bend_ = Matrix6::Zero();
-};
 
 /// The quadrature of one part of a surface.
 template <typename Sums>
 class PartQuadrature {
  public:
   PartQuadrature(const RuledSurface& surface, const DepthField& soft,
-                 const Vector3& o)
-      : surface_(surface), soft_(soft), o_(o) {}
+                 const Vector3& o, bool by_tip)
+      : surface_(surface), soft_(soft), o_(o), by_tip_(by_tip) {}
 
   void integrate(const Span& part, Sums& sums) const {
     Cuts cuts;
     find_cuts(surface_, soft_, part, cuts);
-    const auto ends = cuts.all();
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      add_lines({ends[i], ends[i + 1]}, sums);
+    if (surface_.has_one_normal()) {
+      auto all = sums.begin_line();
+      visit_lines(cuts, [&](double u, double weight) {
+        add_line(u, weight * surface_.find_area(u).dot(surface_.e3), all);
+      });
+      sums.add(all, surface_.e3);
+      return;
     }
+    visit_lines(cuts, [&](double u, double weight) {
+      auto line = sums.begin_line();
+      add_line(u, 1.0, line);
+      sums.add(line, weight * surface_.find_area(u));
+    });
   }
 
  private:
@@ -219,8 +55,17 @@ class PartQuadrature {
            find_depth(u.last - kInside * u.length()) > least;
   }
 
+  // Between cuts. @param use (u, weight)
+  template <typename Use>
+  void visit_lines(const Cuts& cuts, const Use& use) const {
+    const auto ends = cuts.all();
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      visit_lines(Span{ends[i], ends[i + 1]}, use);
+    }
+  }
   // Of a blunt part by the sine of an angle.
-  void add_lines(const Span& u, Sums& sums) const {
+  template <typename Use>
+  void visit_lines(const Span& u, const Use& use) const {
     if (u.is_empty()) return;
     const auto& rule = line_rule<12>();
     const bool by_angle = is_blunt(u);
@@ -232,50 +77,63 @@ class PartQuadrature {
         place = 0.5 * (1.0 + std::sin(angle));
         weight *= 0.5 * std::numbers::pi * std::cos(angle);
       }
-      add_line(u.first + place * u.length(), weight, sums);
+      use(u.first + place * u.length(), weight);
     }
   }
 
-  void add_line(double u, double weight, Sums& sums) const {
+  template <typename LineOf>
+  void add_line(double u, double weight, LineOf& sums) const {
     const StraightLine line = surface_.find_line(u);
     const Span part = soft_.cut(line);
     if (part.is_empty()) return;
     LinePieces pieces;
     soft_.divide(line, part, pieces);
-    auto of_line = sums.begin_line();
     double first = part.first;
     for (const LinePiece& piece : pieces.all()) {
       const Span span{first, piece.last};
-      // Polynomials of degree 5 below a flat.
-      if (soft_.is_flat()) {
-        add_points<3>(line, span, piece.face, of_line);
+      // Polynomials of degree 5 below a flat, 6 where lines meet.
+      if (soft_.is_flat() && !surface_.narrows()) {
+        add_points<3>(line, span, piece.face, weight, sums);
       } else {
-        add_points<6>(line, span, piece.face, of_line);
+        add_points<6>(line, span, piece.face, weight, sums);
       }
       first = piece.last;
     }
-    sums.add(of_line, weight * surface_.find_area(u));
   }
 
   template <std::size_t count, typename LineOf>
   void add_points(const StraightLine& line, const Span& span, int face,
-                  LineOf& sums) const {
+                  double weight, LineOf& sums) const {
     const auto& rule = line_rule<count>();
     for (std::size_t i = 0; i < count; ++i) {
-      const Vector3 x = line.at(span.first + rule.places[i] * span.length());
-      const Depth depth = soft_.find_depth(x, face);
+      const double v = span.first + rule.places[i] * span.length();
+      const Vector3 x = line.at(v);
+      const Depth depth = soft_.find_depth(x, face, by_tip_);
       if (!(depth.t > 0.0)) continue;
-      sums.add(depth, x - o_, rule.weights[i] * span.length());
+      sums.add(
+          depth, x - o_,
+          weight * rule.weights[i] * span.length() * surface_.find_width(v));
     }
   }
 
   const RuledSurface& surface_;
   const DepthField& soft_;
   const Vector3& o_;
+  bool by_tip_;
 };
 
+// Whether the axis of a soft cone is within `hard`, also below its rim's sheet.
+bool is_by_tip(const DepthField& soft, const DepthField& hard,
+               const Pose& X_hs) {
+  const auto* cone = std::get_if<Cone>(&soft.kind());
+  if (cone == nullptr) return false;
+  const double half = cone->half_length;
+  return !hard.cut({X_hs.p, X_hs.R.col(2), {-half, half}}).is_empty();
+}
+
 // Out of both cells, over the part of the sheet within `hard`.
-double find_sheet_flux(const RuledSurface& sheet, const DepthField& hard) {
+double find_sheet_flux(const RuledSurface& sheet, const DepthField& hard,
+                       bool by_tip) {
   const auto part = find_touched_part(sheet, hard);
   if (!part) return 0.0;
   Cuts cuts;
@@ -289,7 +147,7 @@ double find_sheet_flux(const RuledSurface& sheet, const DepthField& hard) {
       const Span within =
           hard.cut(sheet.find_line(ends[k] + rule.places[i] * width));
       if (within.is_empty()) continue;
-      flux += rule.weights[i] * width * sheet.find_flux(within);
+      flux += rule.weights[i] * width * sheet.find_flux(within, by_tip);
     }
   }
   return flux;
@@ -369,12 +227,13 @@ SurfaceContact::SurfaceContact(const RuledBody& soft, const RuledBody& hard,
     added.u = part->u;
     if (part->depth > deepest_.depth) deepest_ = *part;
   });
+  by_tip_ = is_by_tip(soft.field(), hard.field(), X_hs_);
 }
 
 template <typename Sums>
 void SurfaceContact::integrate_parts(const Vector3& o, Sums& sums) const {
   for (const Part& part : parts_.all()) {
-    PartQuadrature<Sums>(part.surface, soft_.field(), o)
+    PartQuadrature<Sums>(part.surface, soft_.field(), o, by_tip_)
         .integrate(part.u, sums);
   }
 }
@@ -392,12 +251,14 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
   for (const RuledSurface& sheet : soft_.sheets()) {
     const RuledSurface placed = sheet.place(X_hs_);
     if (!hard_.is_reached(placed)) continue;
-    of_sheets += find_sheet_flux(placed, hard_.field());
+    of_sheets += find_sheet_flux(placed, hard_.field(), by_tip_);
   }
   out.M = sums.flux + of_sheets;
   const Vector6 wrench = sums.find_wrench();
   out.m1 = sign * wrench;
-  out.depth = deepest_.depth;
+  out.depth = soft_.field().is_flat()
+                  ? deepest_.depth
+                  : soft_.field().find_depth(deepest_.place, 0).t;
   const Vector3 way = wrench.head<3>().normalized();
   Weights10 pressure = Weights10::Zero();
   Slopes slopes = Slopes::Zero();

@@ -53,6 +53,7 @@ class SurfaceContact {
   Pose X_hs_;  // of soft in the frame of hard
   StackArray<Part, SolidField::kMostFaces> parts_;
   TouchedPart deepest_;
+  bool by_tip_ = false;  // see ConeField
 };
 
 /// Of vectors in other axes, R of those from these.

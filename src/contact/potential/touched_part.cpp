@@ -12,6 +12,7 @@ constexpr double kGolden = 0.6180339887498949;
 constexpr int kMostSteps = 70;
 // Of the deepest place within the touched lines.
 constexpr int kStepsToDeepest = 16;
+constexpr int kStepsToLongest = 30;
 constexpr int kSectors = 8;
 // Of an end of the touched lines, where the depth is 0 [-].
 constexpr double kEnd = 1e-6;
@@ -48,6 +49,30 @@ class Search {
       if (depth > best.depth) best = {i * width, depth};
     }
     return {best.u - width, best.u + width};
+  }
+
+  // Of a closed surface, whose lines all touch, the line that is longest within
+  // the body.
+  [[nodiscard]] double find_longest() const {
+    const double width = surface_.u.length() / kSectors;
+    const auto find_length = [&](double u) {
+      return body_.cut(surface_.find_line(u)).length();
+    };
+    double best = 0.0;
+    for (int i = 1; i < kSectors; ++i) {
+      if (find_length(i * width) > find_length(best)) best = i * width;
+    }
+    Span in{best - width, best + width};
+    for (int i = 0; i < kStepsToLongest; ++i) {
+      const double left = in.last - kGolden * in.length();
+      const double right = in.first + kGolden * in.length();
+      if (find_length(left) > find_length(right)) {
+        in.last = right;
+      } else {
+        in.first = left;
+      }
+    }
+    return in.middle();
   }
 
   // Where the depth ends to be positive, from a line that touches to one that
@@ -103,6 +128,12 @@ class Search {
   const DepthField& body_;
   double speed_;
 };
+
+// Whether all lines of a cone touch.
+bool holds_tip(const RuledSurface& surface, const Span& touched) {
+  constexpr double kAll = 1.0 - 1e-9;
+  return surface.narrows() && touched.length() > kAll * surface.u.length();
+}
 
 // Which ends and faces the part of a line within the body has; 0: none.
 std::uint64_t describe_line(const RuledSurface& surface, const DepthField& body,
@@ -177,6 +208,30 @@ void add_changes(const RuledSurface& surface, const DepthField& body,
   }
 }
 
+// Of lines that meet in a tip within the body, where others soon become much
+// shorter than the longest one: halves, until none is a few times the next.
+void add_shorter(const RuledSurface& surface, const DepthField& body,
+                 Cuts& cuts) {
+  constexpr double kShorter = 0.3;
+  constexpr double kNarrowest = 1e-5;  // [rad]
+  constexpr std::size_t kMost = 200;
+  const auto find_length = [&](double u) {
+    return body.cut(surface.find_line(u)).length();
+  };
+  for (std::size_t i = 0; i + 1 < cuts.all().size();) {
+    const Span span{cuts.all()[i], cuts.all()[i + 1]};
+    const double a = find_length(span.first);
+    const double b = find_length(span.last);
+    const bool is_even = std::min(a, b) >= kShorter * std::max(a, b);
+    if (is_even || span.length() < kNarrowest || cuts.all().size() >= kMost) {
+      ++i;
+      continue;
+    }
+    cuts.add() = span.middle();
+    std::ranges::sort(cuts.all());
+  }
+}
+
 }  // namespace
 
 std::optional<TouchedPart> find_touched_part(const RuledSurface& surface,
@@ -192,6 +247,10 @@ std::optional<TouchedPart> find_touched_part(const RuledSurface& surface,
   TouchedPart part;
   part.u = {search.find_end(touching, middle - half),
             search.find_end(touching, middle + half)};
+  if (holds_tip(surface, part.u)) {
+    const double longest = search.find_longest();
+    part.u = {longest - half, longest + half};
+  }
   Peak deepest = search.find_deepest(part.u);
   if (touching.depth > deepest.depth) deepest = touching;
   const StraightLine line = surface.find_line(deepest.u);
@@ -212,8 +271,11 @@ void find_cuts(const RuledSurface& surface, const DepthField& body,
     out.add() = last;
     first = last;
   };
+  const bool is_around_tip = holds_tip(surface, part);
   for (const double corner : corners.all()) add_part(corner);
+  if (is_around_tip) add_part(part.middle());
   add_part(part.last);
+  if (is_around_tip) add_shorter(surface, body, out);
   if (surface.is_closed() && out.all().size() == 2) {
     out.all()[1] = part.middle();
     out.add() = part.last;

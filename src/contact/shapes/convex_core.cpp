@@ -20,6 +20,16 @@ ConvexCore::ConvexCore(const PlacedShape& shape) : centre_(shape.X_WS.p) {
     segments_[0] = {R.col(2), rod->half_length};
     disc_ = rod->radius;
     size_ = std::hypot(rod->half_length, rod->radius);
+  } else if (const auto* cone = std::get_if<Cone>(&shape.shape.kind)) {
+    segments_[0] = {R.col(2), cone->half_length};
+    disc_ = cone->radius;
+    is_cone_ = true;
+    size_ = std::hypot(cone->half_length, cone->radius);
+  } else if (const auto* egg = std::get_if<Ellipsoid>(&shape.shape.kind)) {
+    count_ = 0;
+    R_ = R;
+    radii_ = egg->radii;
+    size_ = radii_.maxCoeff();
   } else if (const auto* ball = std::get_if<Sphere>(&shape.shape.kind)) {
     ball_ = ball->radius;
   } else {
@@ -46,6 +56,7 @@ ConvexCore::ConvexCore(std::span<const Vector3> corners, const Pose& X)
 void ConvexCore::scale(double by) {
   for (Segment& segment : segments_) segment.half_length *= by;
   disc_ *= by;
+  radii_ *= by;
   size_ *= by;
   origin_ += (1.0 - by) * (centre_ - origin_);
   scale_ *= by;
@@ -61,6 +72,12 @@ Vector3 ConvexCore::find_support_point(const Vector3& n) const {
                          });
     return origin_ + scale_ * (R_ * *farthest);
   }
+  if (!radii_.isZero(0.0)) {
+    const Vector3 way = radii_.cwiseProduct(R_.transpose() * n);
+    const double length = way.norm();
+    if (!(length > 0.0)) return centre_;
+    return centre_ + R_ * radii_.cwiseProduct(way / length);
+  }
   Vector3 point = centre_;
   for (const Segment& segment : segments()) {
     const double side = n.dot(segment.axis) < 0.0 ? -1.0 : 1.0;
@@ -71,7 +88,14 @@ Vector3 ConvexCore::find_support_point(const Vector3& n) const {
     Vector3 radial = n - n.dot(axis) * axis;
     radial -= radial.dot(axis) * axis;  // or round-off would leave the disc
     const double length = radial.norm();
-    if (length > 1e-12 * n.norm()) point += (disc_ / length) * radial;
+    Vector3 rim = Vector3::Zero();
+    if (length > 1e-12 * n.norm()) rim = (disc_ / length) * radial;
+    if (is_cone_) {
+      const Vector3 tip = segments_[0].half_length * axis;
+      return centre_ +
+             (n.dot(rim) > 2.0 * n.dot(tip) ? Vector3(rim - tip) : tip);
+    }
+    point += rim;
   }
   return point;
 }

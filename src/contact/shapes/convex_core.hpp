@@ -11,11 +11,12 @@
 namespace limber::contact {
 
 /// A ball, capsule, cylinder or box in the world frame as a Minkowski sum of
-/// segments about its centre, a disc and a ball; or a hull of corners, which
-/// has neither.
+/// segments about its centre, a disc and a ball; or a hull of corners, a cone
+/// or an ellipsoid, which have neither.
 ///
 /// Equation   support max n . x = n . c + sum_k h_k |n . u_k|
-///            + R |n x u_0| + r, n of unit length
+///            + R |n x u_0| + r, n of unit length; of a cone the larger one of
+///            its tip and its disc, of an ellipsoid n . c + |diag(radii) R' n|
 class ConvexCore {
  public:
   struct Segment {
@@ -52,9 +53,11 @@ class ConvexCore {
   std::array<Segment, 3> segments_;
   std::size_t count_ = 1;
   std::span<const Vector3> corners_;  // of a hull
-  Matrix3 R_ = Matrix3::Identity();   // of the corners' frame
+  Matrix3 R_ = Matrix3::Identity();   // of the corners' frame, or an ellipsoid
   Vector3 origin_ = Vector3::Zero();
   double scale_ = 1.0;
+  bool is_cone_ = false;  // whose disc is at the first segment's lower end
+  Vector3 radii_ = Vector3::Zero();  // of an ellipsoid, along R_
   double disc_ = 0.0;
   double ball_ = 0.0;
   double size_ = 0.0;

@@ -6,7 +6,7 @@
 
 namespace limber::contact {
 
-/// The middle of all points of a ball, capsule or cylinder that are as low
+/// The middle of all points of a round body that are as low
 /// along `up` as its lowest one, in the world frame [m].
 /// @param up unit
 /// @param level sine of an angle up to which a line or disc lies level [-]

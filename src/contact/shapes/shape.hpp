@@ -25,6 +25,14 @@ struct Cylinder {
   double radius = 0.0;       ///< > 0 [m]
   double half_length = 0.0;  ///< > 0 [m]
 };
+/// From a disc at z = -half_length to a tip at z = half_length.
+struct Cone {
+  double radius = 0.0;       ///< of the disc, > 0 [m]
+  double half_length = 0.0;  ///< > 0 [m]
+};
+struct Ellipsoid {
+  Vector3 radii = Vector3::Zero();  ///< along x, y and z, > 0 [m]
+};
 struct Box {
   Vector3 half_size = Vector3::Zero();  ///< > 0 [m]
 };
@@ -32,7 +40,7 @@ struct Box {
 struct HalfSpace {};
 
 using ShapeKind = std::variant<Sphere, Capsule, Cylinder, Box, HalfSpace,
-                               std::shared_ptr<const Skin>>;
+                               std::shared_ptr<const Skin>, Cone, Ellipsoid>;
 
 /// A shape attached to a body. A Skin deforms with the body's modes; all others
 /// move with its frame.

@@ -24,11 +24,15 @@ void describe_kind(Manifest& out, const Sphere& sphere) {
   out.add("radius [m]", sphere.radius);
 }
 
-// For a capsule or a cylinder.
+// For a capsule, a cylinder or a cone.
 template <typename Rod>
 void describe_kind(Manifest& out, const Rod& rod) {
   out.add("radius [m]", rod.radius);
   out.add("half length [m]", rod.half_length);
+}
+
+void describe_kind(Manifest& out, const Ellipsoid& body) {
+  out.add("radii [m]", list_values(body.radii));
 }
 
 void describe_kind(Manifest& out, const Box& box) {
@@ -57,7 +61,10 @@ double find_own_roundness(const Shape& shape) {
         using Kind = std::decay_t<decltype(kind)>;
         if constexpr (std::is_same_v<Kind, Box>) {
           return kind.half_size.minCoeff();
-        } else if constexpr (std::is_same_v<Kind, Cylinder>) {
+        } else if constexpr (std::is_same_v<Kind, Ellipsoid>) {
+          return kind.radii.minCoeff();
+        } else if constexpr (std::is_same_v<Kind, Cylinder> ||
+                             std::is_same_v<Kind, Cone>) {
           return std::min(kind.radius, kind.half_length);
         } else if constexpr (std::is_same_v<Kind, HalfSpace>) {
           return 0.0;  // none

@@ -21,30 +21,39 @@ void check_size(const char* what, double value) {
 }
 
 void check_kind(const ShapeKind& kind) {
-  std::visit(Overloaded{[](const Sphere& sphere) {
-                          check_size("sphere's radius [m]", sphere.radius);
-                        },
-                        [](const Capsule& capsule) {
-                          check_size("capsule's radius [m]", capsule.radius);
-                          check_size("capsule's half length [m]",
-                                     capsule.half_length);
-                        },
-                        [](const Cylinder& cylinder) {
-                          check_size("cylinder's radius [m]", cylinder.radius);
-                          check_size("cylinder's half length [m]",
-                                     cylinder.half_length);
-                        },
-                        [](const Box& box) {
-                          for (const double size : box.half_size) {
-                            check_size("box's half size [m]", size);
-                          }
-                        },
-                        [](const HalfSpace&) {},
-                        [](const SkinPointer& skin) {
-                          if (skin != nullptr) return;
-                          throw InputError("contact: its skin is missing");
-                        }},
-             kind);
+  std::visit(
+      Overloaded{[](const Sphere& sphere) {
+                   check_size("sphere's radius [m]", sphere.radius);
+                 },
+                 [](const Capsule& capsule) {
+                   check_size("capsule's radius [m]", capsule.radius);
+                   check_size("capsule's half length [m]", capsule.half_length);
+                 },
+                 [](const Cylinder& cylinder) {
+                   check_size("cylinder's radius [m]", cylinder.radius);
+                   check_size("cylinder's half length [m]",
+                              cylinder.half_length);
+                 },
+                 [](const Cone& cone) {
+                   check_size("cone's radius [m]", cone.radius);
+                   check_size("cone's half length [m]", cone.half_length);
+                 },
+                 [](const Ellipsoid& body) {
+                   for (const double radius : body.radii) {
+                     check_size("ellipsoid's radius [m]", radius);
+                   }
+                 },
+                 [](const Box& box) {
+                   for (const double size : box.half_size) {
+                     check_size("box's half size [m]", size);
+                   }
+                 },
+                 [](const HalfSpace&) {},
+                 [](const SkinPointer& skin) {
+                   if (skin != nullptr) return;
+                   throw InputError("contact: its skin is missing");
+                 }},
+      kind);
 }
 
 // Largest distance of the shape's points from the origin of its frame.
@@ -57,6 +66,10 @@ double find_size(const ShapeKind& kind, const joints::PairBody& body) {
                  [](const Cylinder& cylinder) {
                    return std::hypot(cylinder.half_length, cylinder.radius);
                  },
+                 [](const Cone& cone) {
+                   return std::hypot(cone.half_length, cone.radius);
+                 },
+                 [](const Ellipsoid& egg) { return egg.radii.maxCoeff(); },
                  [](const Box& box) { return box.half_size.norm(); },
                  [](const HalfSpace&) {
                    return std::numeric_limits<double>::infinity();
@@ -74,6 +87,8 @@ std::string name_kind(const Shape& shape) {
   return std::visit(Overloaded{[](const Sphere&) { return "sphere"; },
                                [](const Capsule&) { return "capsule"; },
                                [](const Cylinder&) { return "cylinder"; },
+                               [](const Cone&) { return "cone"; },
+                               [](const Ellipsoid&) { return "ellipsoid"; },
                                [](const Box&) { return "box"; },
                                [](const HalfSpace&) { return "half space"; },
                                [](const SkinPointer&) { return "skin"; }},

@@ -28,6 +28,10 @@ std::optional<double> find_radius(const Geometry& geometry) {
       Overloaded{[](const SphereGeometry& g) -> Radius { return g.radius; },
                  [](const CylinderGeometry& g) -> Radius { return g.radius; },
                  [](const CapsuleGeometry& g) -> Radius { return g.radius; },
+                 [](const ConeGeometry& g) -> Radius { return g.radius; },
+                 [](const EllipsoidGeometry& g) -> Radius {
+                   return g.radii.minCoeff();
+                 },
                  [](const BoxGeometry& g) -> Radius {
                    return 0.5 * g.size.minCoeff();
                  },

@@ -23,6 +23,12 @@ contact::ShapeKind make_shape(const Geometry& geometry) {
                  [](const CapsuleGeometry& g) -> ShapeKind {
                    return contact::Capsule{g.radius, 0.5 * g.length};
                  },
+                 [](const ConeGeometry& g) -> ShapeKind {
+                   return contact::Cone{g.radius, 0.5 * g.length};
+                 },
+                 [](const EllipsoidGeometry& g) -> ShapeKind {
+                   return contact::Ellipsoid{g.radii};
+                 },
                  [](const auto&) -> ShapeKind { return contact::HalfSpace{}; }},
       geometry);
 }

@@ -78,8 +78,8 @@ void check_shapes(const Link& link) {
     }
     throw InputError(fmt::format(
         "link '{}' has a <{}> in its <collision>, which contacts do not know; "
-        "give <sphere>, <box>, <cylinder>, <capsule> or <mesh>, or make the "
-        "link flexible: its own mesh touches then",
+        "give <sphere>, <box>, <cylinder>, <capsule>, <cone>, <ellipsoid> or "
+        "<mesh>, or make the link flexible: its own mesh touches then",
         link.name, other->tag));
   }
 }

@@ -48,6 +48,13 @@ Geometry read_box_shape(XmlElement& element) {
   return keep_sized(element, box, box.size.minCoeff());
 }
 
+Geometry read_ellipsoid_shape(XmlElement& element) {
+  if (!element.has("radii")) element.fail("needs 'radii'");
+  const EllipsoidGeometry ellipsoid{
+      element.vector("radii", kNonNegative).value_or(Vector3::Ones())};
+  return keep_sized(element, ellipsoid, ellipsoid.radii.minCoeff());
+}
+
 template <typename Shape>
 Geometry read_round_shape(XmlElement& element) {
   const Shape shape{element.required_number("radius", kNonNegative),
@@ -62,7 +69,9 @@ const std::map<std::string, GeometryReader>& geometry_readers() {
       {"sphere", &read_sphere_shape},
       {"box", &read_box_shape},
       {"cylinder", &read_round_shape<CylinderGeometry>},
-      {"capsule", &read_round_shape<CapsuleGeometry>}};
+      {"capsule", &read_round_shape<CapsuleGeometry>},
+      {"cone", &read_round_shape<ConeGeometry>},
+      {"ellipsoid", &read_ellipsoid_shape}};
   return readers;
 }
 
@@ -145,7 +154,8 @@ std::optional<Geometry> read_geometry(const TiXmlElement& collision,
   if (geometry == nullptr || geometry->FirstChildElement() == nullptr) {
     problems.add(collision.Row(),
                  fmt::format("<{}> needs a <geometry> with a shape: <sphere>, "
-                             "<box>, <cylinder>, <capsule> or <mesh>",
+                             "<box>, <cylinder>, <capsule>, <cone>, "
+                             "<ellipsoid> or <mesh>",
                              collision.ValueStr()));
     return std::nullopt;
   }

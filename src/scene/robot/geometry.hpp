@@ -26,6 +26,13 @@ struct CapsuleGeometry {
   double radius = 0.0;
   double length = 0.0;  ///< of the segment, along z, the origin in its middle
 };
+struct ConeGeometry {
+  double radius = 0.0;
+  double length = 0.0;  ///< along z to the tip, the origin half way
+};
+struct EllipsoidGeometry {
+  Vector3 radii = Vector3::Zero();  ///< along x, y, z
+};
 /// z <= 0
 struct PlaneGeometry {};
 /// A closed surface in a file of triangles.
@@ -39,8 +46,8 @@ struct OtherGeometry {
   std::string tag;
   std::string reason = {};  ///< with file and line; empty: the tag is unknown
 };
-using Geometry =
-    std::variant<SphereGeometry, BoxGeometry, CylinderGeometry, CapsuleGeometry,
-                 PlaneGeometry, MeshGeometry, OtherGeometry>;
+using Geometry = std::variant<SphereGeometry, BoxGeometry, CylinderGeometry,
+                              CapsuleGeometry, ConeGeometry, EllipsoidGeometry,
+                              PlaneGeometry, MeshGeometry, OtherGeometry>;
 
 }  // namespace limber::scene

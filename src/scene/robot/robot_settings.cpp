@@ -62,7 +62,9 @@ const Known& names_of_link() {
       {"collision.geometry.sphere", {"radius"}},
       {"collision.geometry.box", {"size"}},
       {"collision.geometry.cylinder", {"radius", "length"}},
-      {"collision.geometry.capsule", {"radius", "length"}}};
+      {"collision.geometry.capsule", {"radius", "length"}},
+      {"collision.geometry.cone", {"radius", "length"}},
+      {"collision.geometry.ellipsoid", {"radii"}}};
   return names;
 }
 

@@ -32,6 +32,8 @@ ElementNames describe_collision() {
              {"box", {"size"}},
              {"cylinder", {"radius", "length"}},
              {"capsule", {"radius", "length"}},
+             {"cone", {"radius", "length"}},
+             {"ellipsoid", {"radii"}},
              {"mesh", {"filename", "scale"}}}}},
           {"contact_coefficients", "gazebo", "material"},
           true};

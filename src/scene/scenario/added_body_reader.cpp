@@ -50,33 +50,45 @@ Matrix3 read_normal(TomlTable& table) {
       .toRotationMatrix();
 }
 
-Vector3 read_box_size(TomlTable& table) {
-  if (!table.has("size")) table.fail("needs 'size', the edges [x, y, z]");
-  Vector3 size = table.vector("size").value_or(Vector3::Ones());
-  if (!(size.minCoeff() > 0.0)) {
-    table.fail("size", "expected three numbers > 0");
+// @param what they are, such as "the edges"
+Vector3 read_sizes(TomlTable& table, const char* key, const char* what) {
+  if (!table.has(key)) {
+    table.fail(fmt::format("needs '{}', {} [x, y, z]", key, what));
   }
-  return size;
+  Vector3 sizes = table.vector(key).value_or(Vector3::Ones());
+  if (!(sizes.minCoeff() > 0.0)) {
+    table.fail(key, "expected three numbers > 0");
+  }
+  return sizes;
 }
 
-enum class ShapeName { plane, box, sphere, cylinder, capsule };
+// With a radius and a length.
+template <typename Shape>
+Geometry read_round(TomlTable& table) {
+  return Shape{table.required_number("radius", kPositive),
+               table.required_number("length", kPositive)};
+}
+
+enum class ShapeName { plane, box, sphere, cylinder, capsule, cone, ellipsoid };
 
 Geometry read_geometry(TomlTable& table, ShapeName shape) {
   switch (shape) {
     case ShapeName::plane:
       return PlaneGeometry{};
     case ShapeName::box:
-      return BoxGeometry{read_box_size(table)};
+      return BoxGeometry{read_sizes(table, "size", "the edges")};
     case ShapeName::sphere:
       return SphereGeometry{table.required_number("radius", kPositive)};
     case ShapeName::cylinder:
-      return CylinderGeometry{table.required_number("radius", kPositive),
-                              table.required_number("length", kPositive)};
+      return read_round<CylinderGeometry>(table);
     case ShapeName::capsule:
+      return read_round<CapsuleGeometry>(table);
+    case ShapeName::cone:
+      return read_round<ConeGeometry>(table);
+    case ShapeName::ellipsoid:
       break;
   }
-  return CapsuleGeometry{table.required_number("radius", kPositive),
-                         table.required_number("length", kPositive)};
+  return EllipsoidGeometry{read_sizes(table, "radii", "along")};
 }
 
 // Which shapes have a key.
@@ -84,25 +96,29 @@ const std::map<std::string, std::vector<ShapeName>>& find_owners() {
   static const std::map<std::string, std::vector<ShapeName>> owners = {
       {"normal", {ShapeName::plane}},
       {"size", {ShapeName::box}},
-      {"radius", {ShapeName::sphere, ShapeName::cylinder, ShapeName::capsule}},
-      {"length", {ShapeName::cylinder, ShapeName::capsule}},
+      {"radius",
+       {ShapeName::sphere, ShapeName::cylinder, ShapeName::capsule,
+        ShapeName::cone}},
+      {"length", {ShapeName::cylinder, ShapeName::capsule, ShapeName::cone}},
+      {"radii", {ShapeName::ellipsoid}},
       {"orientation_rpy",
        {ShapeName::box, ShapeName::sphere, ShapeName::cylinder,
-        ShapeName::capsule}}};
+        ShapeName::capsule, ShapeName::cone, ShapeName::ellipsoid}}};
   return owners;
 }
 
 /// None, and a problem, without a known shape.
 std::optional<ShapeName> read_shape_name(TomlTable& table) {
   static const std::vector<std::pair<std::string, std::optional<ShapeName>>>
-      names = {{"plane", ShapeName::plane},
-               {"box", ShapeName::box},
-               {"sphere", ShapeName::sphere},
-               {"cylinder", ShapeName::cylinder},
-               {"capsule", ShapeName::capsule}};
+      names = {
+          {"plane", ShapeName::plane},        {"box", ShapeName::box},
+          {"sphere", ShapeName::sphere},      {"cylinder", ShapeName::cylinder},
+          {"capsule", ShapeName::capsule},    {"cone", ShapeName::cone},
+          {"ellipsoid", ShapeName::ellipsoid}};
   if (!table.has("shape")) {
     table.fail(
-        "needs 'shape', 'plane', 'box', 'sphere', 'cylinder' or 'capsule'");
+        "needs 'shape', 'plane', 'box', 'sphere', 'cylinder', 'capsule', "
+        "'cone' or 'ellipsoid'");
   }
   const auto shape =
       read_choice<std::optional<ShapeName>>(table, "shape", names, {});

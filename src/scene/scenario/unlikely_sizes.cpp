@@ -46,6 +46,14 @@ ShapeSize find_size(const Geometry& geometry) {
                    return ShapeSize{c.length + 2.0 * c.radius,
                                     kPi * c.radius * c.radius * c.length};
                  },
+                 [](const ConeGeometry& c) {
+                   return ShapeSize{std::max(c.length, 2.0 * c.radius),
+                                    kPi / 3.0 * c.radius * c.radius * c.length};
+                 },
+                 [](const EllipsoidGeometry& e) {
+                   return ShapeSize{2.0 * e.radii.maxCoeff(),
+                                    4.0 / 3.0 * kPi * e.radii.prod()};
+                 },
                  [](const auto& /*unknown*/) { return ShapeSize{}; }},
       geometry);
 }

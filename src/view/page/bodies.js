@@ -38,7 +38,7 @@ function addStress(geometry, stress) {
   geometry.setAttribute('limberStress', attribute);
 }
 
-// Axes of cylinders and capsules are z here, y in three.js.
+// Axes of cylinders, cones and capsules are z here, y in three.js.
 const upright = (geometry) => geometry.rotateX(Math.PI / 2);
 
 function makeShape(shape, extent) {
@@ -54,6 +54,8 @@ function makeShape(shape, extent) {
   if (kind === 'cylinder') {
     return upright(new THREE.CylinderGeometry(size[0], size[0], size[1], 32));
   }
+  if (kind === 'cone') return upright(new THREE.ConeGeometry(size[0], size[1], 32));
+  if (kind === 'ellipsoid') return new THREE.SphereGeometry(1, 48, 24).scale(...size);
   if (kind === 'capsule') return upright(new THREE.CapsuleGeometry(size[0], size[1], 8, 24));
   return new THREE.PlaneGeometry(2 * extent, 2 * extent);
 }

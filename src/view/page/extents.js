@@ -8,6 +8,8 @@ function halfEdges({ kind, size }) {
   if (kind === 'box') return [a / 2, b / 2, c / 2];
   if (kind === 'sphere') return [a, a, a];
   if (kind === 'cylinder') return [a, a, b / 2];
+  if (kind === 'cone') return [a, a, b / 2];
+  if (kind === 'ellipsoid') return [a, b, c];
   if (kind === 'capsule') return [a, a, a + b / 2];
   return [0, 0, 0]; // a plane
 }

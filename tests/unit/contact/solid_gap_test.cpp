@@ -4,6 +4,7 @@
 #include <fcl/fcl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -11,7 +12,7 @@
 #include "limber/contact/shapes/shape_properties.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-/// Boxes, cylinders and capsules apart from each other: against FCL, and
+/// Boxes, round shapes and ellipsoids apart from each other: against FCL, and
 /// against the slab between them.
 namespace limber::contact::solid_gap_test {
 namespace {
@@ -19,8 +20,9 @@ namespace {
 using joints::PairBody;
 
 std::vector<ShapeKind> list_kinds() {
-  return {Box{{0.3, 0.4, 0.5}}, Cylinder{0.3, 0.5}, Capsule{0.2, 0.5},
-          Box{{0.5, 0.02, 0.3}}, Cylinder{0.5, 0.03}};
+  return {Box{{0.3, 0.4, 0.5}},      Cylinder{0.3, 0.5},  Capsule{0.2, 0.5},
+          Box{{0.5, 0.02, 0.3}},     Cylinder{0.5, 0.03}, Cone{0.3, 0.4},
+          Ellipsoid{{0.2, 0.3, 0.5}}};
 }
 
 std::shared_ptr<fcl::CollisionGeometryd> make_geometry(const ShapeKind& kind) {
@@ -36,6 +38,13 @@ std::shared_ptr<fcl::CollisionGeometryd> make_geometry(const ShapeKind& kind) {
                  [](const Capsule& c) -> Pointer {
                    return std::make_shared<fcl::Capsuled>(c.radius,
                                                           2.0 * c.half_length);
+                 },
+                 [](const Cone& c) -> Pointer {
+                   return std::make_shared<fcl::Coned>(c.radius,
+                                                       2.0 * c.half_length);
+                 },
+                 [](const Ellipsoid& e) -> Pointer {
+                   return std::make_shared<fcl::Ellipsoidd>(e.radii);
                  },
                  [](const auto&) -> Pointer { return nullptr; }},
       kind);
@@ -53,6 +62,11 @@ double find_reach(const ShapeKind& kind, const Vector3& n_S) {
           [&](const Capsule& c) {
             return c.radius + c.half_length * std::abs(n_S.z());
           },
+          [&](const Cone& c) {
+            return std::max(c.half_length * n_S.z(),
+                            c.radius * side - c.half_length * n_S.z());
+          },
+          [&](const Ellipsoid& e) { return e.radii.cwiseProduct(n_S).norm(); },
           [](const auto&) { return 0.0; }},
       kind);
 }

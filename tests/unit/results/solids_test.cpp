@@ -59,6 +59,15 @@ TEST(Solids, HaveTheVolumesOfTheirShapes) {
                       .volume /
                   (0.75 * pi + pi / 6.0),
               1.0, kChords);
+  EXPECT_NEAR(
+      integrate(make_solid(make_shape("cone", {0.5, 3.0, 0.0}), 1.0)).volume /
+          (0.25 * pi),
+      1.0, kChords);
+  EXPECT_NEAR(
+      integrate(make_solid(make_shape("ellipsoid", {1.0, 2.0, 3.0}), 1.0))
+              .volume /
+          (8.0 * pi),
+      1.0, kChords);
 }
 
 TEST(Solids, AreWhereTheyArePlaced) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/potential/series_potential.hpp"
+#include "limber/contact/patches/series_potential.hpp"
 #include "unit/contact/potential/patch_differences.hpp"
 
 /// Against closed forms of flats and corners, and against differences.

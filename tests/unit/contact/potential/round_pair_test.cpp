@@ -14,8 +14,8 @@
 #include "unit/contact/potential/patch_differences.hpp"
 #include "unit/contact/potential/round_placings.hpp"
 
-/// Cylinders, capsules and balls: against closed forms of the overlap, Hertz,
-/// the moments of polyhedra, and differences.
+/// Cylinders, cones, capsules, balls and ellipsoids: against closed forms of
+/// the overlap, Hertz, the moments of polyhedra, and differences.
 namespace limber::contact::round_pair_test {
 namespace {
 
@@ -122,6 +122,7 @@ TEST(SurfaceContact, OfBoxesIsThatOfPolyhedra) {
 TEST(SurfaceContact, HasTheHessianOfItsMoment) {
   for (const Placing& placing : make_placings()) {
     if (std::holds_alternative<Sphere>(placing.B) ||
+        std::holds_alternative<Ellipsoid>(placing.B) ||
         std::holds_alternative<Capsule>(placing.B)) {
       continue;
     }
@@ -220,6 +221,80 @@ TEST(RoundPair, OfAStandingCylinderIsThatOfARoundPunch) {
               rim);
 }
 
+// N = 2 E* d^2 / (pi tan b), b the slope of the side to the flat [Johnson 1985,
+// sec. 5.2].
+TEST(RoundPair, OfATipOnAPlaneIsThatOfACone) {
+  for (const Cone& cone : {Cone{0.4, 0.05}, kCone, Cone{0.1, 0.005}}) {
+    const double d = 1e-5;
+    const Placing placing{"", kPlane, cone, lower(cone, turn(kPi, 0, 0), d)};
+    const Patch patch = evaluate(make_potential(placing), {}, placing.X_WB);
+    const double slope = 2.0 * cone.half_length / cone.radius;
+    const double load = 2.0 / kPi * kModulus * d * d / slope;
+    EXPECT_NEAR(patch.load() / load, 1.0, 1e-3) << slope;
+    EXPECT_NEAR(patch.energy / (patch.load() * d / 3.0), 1.0, 1e-6);
+    EXPECT_LT(patch.gradient_W.head<2>().norm(), 1e-9 * patch.load());
+  }
+}
+
+TEST(RoundPair, OfAConesDiscIsThatOfARoundPunch) {
+  const double d = 1e-6;
+  const Placing placing{"", kPlane, kCone, lower(kCone, turn(0, 0, 0), d)};
+  const Patch patch = evaluate(make_potential(placing), {}, placing.X_WB);
+  const double k = 2.0 * kModulus * kCone.radius;
+  EXPECT_NEAR(patch.gradient_W[2] / (-k * d), 1.0, 3.0 * d / kCone.radius);
+  EXPECT_NEAR(patch.hessian_W(2, 2) / k, 1.0, 3.0 * d / kCone.radius);
+}
+
+// M of a cone by a grid over the overlap with a box that cuts it anywhere.
+TEST(SurfaceContact, OfAConeIsTheIntegralOverTheOverlap) {
+  const Box table{Vector3(0.1, 0.1, 0.1)};
+  const std::vector<Pose> places{
+      {turn(0, 0, 0), {0.0, 0.0, 0.12}},        // the tip
+      {turn(0.5, 0.3, 0), {0.01, 0.0, 0.125}},  // askew
+      {turn(0, 0.5, 0.2), {0.115, 0.01, 0.0}},  // the side
+      {turn(0, 0, 0.3), {0.12, 0.0, -0.1}}};    // the rim
+  const double slant = std::hypot(0.04, 0.1);
+  for (const Pose& X : places) {
+    const DepthMoments found = find_moments(kCone, table, X, Vector3::Zero());
+    const Pose to_table = X.inverse();
+    double sum = 0.0;
+    constexpr int kCells = 100;
+    const double h = 0.1 / kCells;
+    for (int i = 0; i < kCells; ++i) {
+      for (int j = 0; j < kCells; ++j) {
+        for (int k = 0; k < kCells; ++k) {
+          const Vector3 x((i + 0.5) * h - 0.05, (j + 0.5) * h - 0.05,
+                          (k + 0.5) * h - 0.05);
+          const double side =
+              ((0.05 - x.z()) * 0.04 - x.head<2>().norm() * 0.1) / slant;
+          const double t = std::min(side, 0.05 + x.z());
+          if (!(t > 0.0)) continue;
+          if ((to_table * x).cwiseAbs().maxCoeff() > 0.1) continue;
+          sum += 4.0 * t * t * t * h * h * h;
+        }
+      }
+    }
+    EXPECT_NEAR(found.M / sum, 1.0, 2e-2);
+  }
+}
+
+TEST(RoundPair, OfABallIsThatOfAnEllipsoidOfEqualRadii) {
+  const Ellipsoid egg{Vector3::Constant(kBall.radius)};
+  for (const Placing& placing : make_placings()) {
+    if (!std::holds_alternative<Sphere>(placing.B)) continue;
+    SCOPED_TRACE(placing.name);
+    Placing other = placing;
+    other.B = egg;
+    const Patch one = evaluate(make_potential(placing), {}, placing.X_WB);
+    const Patch same = evaluate(make_potential(other), {}, placing.X_WB);
+    EXPECT_NEAR(same.energy / one.energy, 1.0, 1e-8);
+    EXPECT_LT((same.gradient_W - one.gradient_W).norm(), 1e-7 * one.load());
+    EXPECT_LT((same.hessian_W - one.hessian_W).norm(),
+              1e-6 * one.hessian_W.norm());
+    EXPECT_NEAR(same.depth / one.depth, 1.0, 1e-4);
+  }
+}
+
 TEST(RoundPair, PressesACornerOnALongCylinderAtTheCorner) {
   for (const double d : {1e-6, 1e-5, 1e-4}) {
     const Placing placing{"", kLog, kBox, stand_on_log(d)};
@@ -265,7 +340,7 @@ TEST(RoundPair, HasTheHessianOfItsEnergy) {
     const double k = size(K, 0, 0);
     const double turned = size(K, 1, 1);
     EXPECT_LT(size(rest, 0, 0), 0.02 * k);
-    EXPECT_LT(size(rest, 1, 1), 0.03 * turned + 2e-4 * patch.load());
+    EXPECT_LT(size(rest, 1, 1), placing.turning * turned + 2e-4 * patch.load());
     EXPECT_LT(size(rest, 0, 1),
               0.02 * std::sqrt(k * turned) + 1e-3 * patch.load());
   }
@@ -307,6 +382,12 @@ ShapeKind scale(const ShapeKind& shape, double s) {
   if (const auto* rod = std::get_if<Cylinder>(&shape)) {
     return Cylinder{s * rod->radius, s * rod->half_length};
   }
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    return Cone{s * cone->radius, s * cone->half_length};
+  }
+  if (const auto* egg = std::get_if<Ellipsoid>(&shape)) {
+    return Ellipsoid{s * egg->radii};
+  }
   if (const auto* box = std::get_if<Box>(&shape))
     return Box{s * box->half_size};
   return shape;
@@ -347,6 +428,9 @@ TEST(RoundPair, LeavesSmoothPairsToHertz) {
   EXPECT_FALSE(suits(kBall, kPill));
   EXPECT_FALSE(suits(kPill, kPill));
   EXPECT_FALSE(suits(kBox, kPlane));
+  EXPECT_FALSE(suits(kEgg, kPlane));
+  EXPECT_FALSE(suits(kEgg, kPill));
+  EXPECT_TRUE(suits(kEgg, kBox));
   EXPECT_TRUE(suits(kPill, kPlane));
   EXPECT_TRUE(suits(kBall, kRod));
 }

@@ -10,7 +10,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/contact/shapes/shape.hpp"
 
-/// Cylinders, capsules, balls and boxes that touch.
+/// Cylinders, cones, capsules, balls, ellipsoids and boxes that touch.
 namespace limber::contact::round_placings {
 
 inline constexpr double kModulus = 1e9;  // [Pa]
@@ -21,6 +21,8 @@ inline const Cylinder kLog{0.05, 0.6};
 inline const Sphere kBall{0.05};
 inline const Box kBox{Vector3(0.03, 0.02, 0.05)};
 inline const HalfSpace kPlane{};
+inline const Cone kCone{0.04, 0.05};
+inline const Ellipsoid kEgg{Vector3(0.02, 0.03, 0.06)};
 
 inline Matrix3 turn(double x, double y, double z) {
   return exp_rotation(Vector3(x, y, z));
@@ -34,6 +36,8 @@ struct Placing {
   // Of the gradient: the factor leaves out the turn of the resultant, of the
   // order of depth over radius.
   double slack = 2e-6;
+  // Of the Hessian by rotations: the second derivative of the factor.
+  double turning = 0.03;
 };
 
 // Lowest point d below z = 0.
@@ -48,6 +52,12 @@ inline Pose lower(const ShapeKind& shape, const Matrix3& R, double d) {
   } else if (const auto* rod = std::get_if<Cylinder>(&shape)) {
     reach = rod->half_length * std::abs(R(2, 2)) +
             rod->radius * std::hypot(R(2, 0), R(2, 1));
+  } else if (const auto* egg = std::get_if<Ellipsoid>(&shape)) {
+    reach = (R.transpose() * Vector3::UnitZ()).cwiseProduct(egg->radii).norm();
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    reach = std::max(-cone->half_length * R(2, 2),
+                     cone->half_length * R(2, 2) +
+                         cone->radius * std::hypot(R(2, 0), R(2, 1)));
   }
   return {R, Vector3(0.01, -0.02, reach - d)};
 }
@@ -106,6 +116,49 @@ inline std::vector<Placing> make_placings() {
        kPill,
        {turn(0, 0, 0.3), {0.04, 0.03, 0.1}},
        5e-4},
+      on_plane("tip on plane", kCone, turn(kPi, 0, 0)),
+      on_plane("tip askew on plane", kCone, turn(kPi - 0.5, 0.2, 0)),
+      on_plane("cone lying", kCone,
+               turn(kPi / 2 + std::atan2(0.04, 0.1), 0, 0)),
+      on_plane("cone standing askew", kCone, turn(0.1, 0.05, 0)),
+      on_plane("cone standing nearly", kCone, turn(0.01, 0, 0)),
+      {"tip on box",
+       kBox,
+       kCone,
+       {turn(0, kPi / 2 + 0.3, 0),
+        Vector3(-0.03 + d, 0, 0.01) -
+            0.05 * (turn(0, kPi / 2 + 0.3, 0) * Vector3::UnitZ())}},
+      {"box's edge on cone",
+       kCone,
+       kBox,
+       {turn(0, kPi / 4, 0),
+        {0.02 + 0.08 / std::sqrt(2.0) - d, 0, 0.02 / std::sqrt(2.0)}},
+       2e-4,
+       0.05},
+      {"cone's tip on log",
+       kLog,
+       kCone,
+       {turn(0, -kPi / 2, 0), {R + 0.05 - d, 0, 0.1}}},
+      {"cone's side across log",
+       kLog,
+       kCone,
+       {turn(kPi / 2, 0, 0), {R * std::sqrt(1.16) + 0.02 - d, 0, 0.1}}},
+      {"ball on cone",
+       kCone,
+       kBall,
+       {turn(0, 0, 0),
+        Vector3(0.02, 0, 0) + (0.05 - d) * Vector3(0.1, 0, 0.04).normalized()}},
+      {"egg on box's edge",
+       kBox,
+       kEgg,
+       {turn(0.2, 0.3, 0.4), {0.049, 0.0305, 0.02}},
+       5e-4},
+      {"egg on box's face",
+       kBox,
+       kEgg,
+       {turn(0, 0, 0), {0.03 + 0.02 - d, 0.0, 0.01}}},
+      {"egg on log", kLog, kEgg, {turn(0, 0, 0), {R + 0.02 - d, 0, 0.1}}},
+      {"egg on tip", kCone, kEgg, {turn(0, 0, 0), {0, 0, 0.05 + 0.06 - d}}},
       {"rod over box's edge",
        kBox,
        kRod,

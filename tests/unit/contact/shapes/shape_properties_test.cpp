@@ -40,6 +40,10 @@ TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
   expect_refused({Capsule{-1.0, 1.0}, {}}, "capsule's radius [m] is -1");
   expect_refused({Capsule{1.0, 0.0}, {}}, "capsule's half length");
   expect_refused({Cylinder{std::nan(""), 1.0}, {}}, "cylinder's radius");
+  expect_refused({Cone{1.0, 0.0}, {}}, "cone's half length");
+  expect_refused({Cone{0.0, 1.0}, {}}, "cone's radius");
+  expect_refused({Ellipsoid{Vector3(1.0, -1.0, 1.0)}, {}},
+                 "ellipsoid's radius [m] is -1");
   expect_refused({Cylinder{1.0, -2.0}, {}}, "cylinder's half length");
   expect_refused({Box{{1.0, 0.0, 1.0}}, {}}, "box's half size [m] is 0");
   expect_refused({std::shared_ptr<const Skin>(), {}}, "skin is missing");
@@ -60,6 +64,8 @@ TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {
   };
   EXPECT_DOUBLE_EQ(find_extent(away(Sphere{2.0}), body), 7.0);
   EXPECT_DOUBLE_EQ(find_extent(away(Capsule{2.0, 1.0}), body), 8.0);
+  EXPECT_DOUBLE_EQ(find_extent(away(Cone{3.0, 4.0}), body), 10.0);
+  EXPECT_DOUBLE_EQ(find_extent(away(Ellipsoid{Vector3(1, 3, 2)}), body), 8.0);
   EXPECT_DOUBLE_EQ(find_extent(away(Cylinder{3.0, 4.0}), body), 10.0);
   EXPECT_DOUBLE_EQ(find_extent(away(Box{{2.0, 3.0, 6.0}}), body), 12.0);
   EXPECT_EQ(find_extent(away(HalfSpace{}), body), kInf);

@@ -19,6 +19,13 @@ TEST(ContactShapes, HalveLengthsAndKeepRadii) {
       std::get<contact::Cylinder>(make_shape(CylinderGeometry{2.0, 6.0}));
   EXPECT_EQ(cylinder.radius, 2.0);
   EXPECT_EQ(cylinder.half_length, 3.0);
+  const auto cone = std::get<contact::Cone>(make_shape(ConeGeometry{2.0, 6.0}));
+  EXPECT_EQ(cone.radius, 2.0);
+  EXPECT_EQ(cone.half_length, 3.0);
+  const Vector3 radii(1.0, 2.0, 3.0);
+  EXPECT_EQ(
+      std::get<contact::Ellipsoid>(make_shape(EllipsoidGeometry{radii})).radii,
+      radii);
   const auto capsule =
       std::get<contact::Capsule>(make_shape(CapsuleGeometry{2.0, 6.0}));
   EXPECT_EQ(capsule.radius, 2.0);

@@ -36,6 +36,11 @@ TEST(CollisionReader, ReadsShapes) {
       read_shape<CylinderGeometry>("<cylinder radius='2' length='3'/>");
   EXPECT_EQ(cylinder.radius, 2.0);
   EXPECT_EQ(cylinder.length, 3.0);
+  const auto cone = read_shape<ConeGeometry>("<cone radius='2' length='3'/>");
+  EXPECT_EQ(cone.radius, 2.0);
+  EXPECT_EQ(cone.length, 3.0);
+  EXPECT_EQ(read_shape<EllipsoidGeometry>("<ellipsoid radii='1 2 3'/>").radii,
+            Vector3(1.0, 2.0, 3.0));
   const auto capsule =
       read_shape<CapsuleGeometry>("<capsule radius='2' length='3'/>");
   EXPECT_EQ(capsule.radius, 2.0);
@@ -78,7 +83,8 @@ TEST(CollisionReader, WarnsOfShapesThatARunMayNotNeed) {
     for (const char* shape :
          {"<box size='0 0 0'/>", "<box size='1 0 1'/>",
           "<sphere radius='0.0'/>", "<cylinder radius='0' length='1'/>",
-          "<capsule radius='1' length='0'/>"}) {
+          "<capsule radius='1' length='0'/>", "<cone radius='1' length='0'/>",
+          "<ellipsoid radii='1 0 1'/>"}) {
       EXPECT_THAT(why(shape), HasSubstr("has a size of 0"));
     }
   }
@@ -153,6 +159,8 @@ TEST(CollisionReader, TellsOfShapesThatAreNone) {
               HasSubstr("<box> size=\"1 -2 1\""));
   EXPECT_THAT(error_of(collision("<capsule radius='1'/>")),
               HasSubstr("<capsule> needs 'length'"));
+  EXPECT_THAT(error_of(collision("<ellipsoid/>")),
+              HasSubstr("<ellipsoid> needs 'radii'"));
   EXPECT_THAT(error_of(collision("<spher radius='1'/>")),
               HasSubstr("did you mean 'sphere'"));
   EXPECT_THAT(error_of(collision("<sphere radius='1'/><box size='1 1 1'/>")),

@@ -87,6 +87,12 @@ Shape read_shape(const std::string& more) {
 TEST(ContactReader, ReadsObstacles) {
   EXPECT_EQ(read_shape<BoxGeometry>("shape='box'\nsize=[4,5,6]\n").size,
             Vector3(4, 5, 6));
+  EXPECT_EQ(
+      read_shape<EllipsoidGeometry>("shape='ellipsoid'\nradii=[4,5,6]\n").radii,
+      Vector3(4.0, 5.0, 6.0));
+  EXPECT_EQ(
+      read_shape<ConeGeometry>("shape='cone'\nradius=4\nlength=5\n").length,
+      5.0);
   EXPECT_EQ(read_shape<SphereGeometry>("shape='sphere'\nradius=4\n").radius,
             4.0);
   const auto cylinder =
@@ -130,6 +136,14 @@ TEST(ContactReader, TellsEveryProblemOfAnObstacle) {
   EXPECT_THAT(error_of(obstacle("shape='plane'\nnormal=[0,0,0]\n")),
               HasSubstr("normal: is zero"));
   EXPECT_THAT(error_of(obstacle("shape='box'\n")), HasSubstr("needs 'size'"));
+  EXPECT_THAT(error_of(obstacle("shape='ellipsoid'\n")),
+              HasSubstr("needs 'radii'"));
+  EXPECT_THAT(error_of(obstacle("shape='ellipsoid'\nradii=[1,2,0]\n")),
+              HasSubstr("expected three numbers > 0"));
+  EXPECT_THAT(error_of(obstacle("shape='cone'\nradius=1\n")),
+              HasSubstr("length"));
+  EXPECT_THAT(error_of(obstacle("shape='sphere'\nradius=1\nradii=[1,1,1]\n")),
+              HasSubstr("has no meaning for a sphere"));
   EXPECT_THAT(error_of(obstacle("shape='box'\nsize=[1,0,1]\n")),
               HasSubstr("size: expected three numbers > 0"));
   EXPECT_THAT(error_of(obstacle("shape='cylinder'\n")),

@@ -35,9 +35,9 @@ using LinePieces = StackArray<LinePiece, 128>;
 struct Depth {
   double t = 0.0;                      ///< distance to the surface [m]
   Vector3 gradient = Vector3::Zero();  ///< of t [-]
-  /// phi, of which the field phi grad t has the divergence 4 t^3 where t is
-  /// smooth: t^4 below a flat [m^4]
-  double flux = 0.0;
+  /// A field of the divergence 4 t^3 where t is smooth, which is 0 on the
+  /// surface: t^4 grad t below a flat [m^4]
+  Vector3 flux = Vector3::Zero();
 };
 
 }  // namespace limber::contact

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/potential/series_potential.hpp"
+#include "limber/contact/patches/series_potential.hpp"
 
 #include <Eigen/LU>
 #include <limits>
