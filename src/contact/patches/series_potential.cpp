@@ -2,7 +2,9 @@
 #include "limber/contact/patches/series_potential.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "limber/common/errors.hpp"
 
@@ -11,6 +13,28 @@ namespace {
 
 Matrix3 turn(const Matrix3& R_WB, const Matrix3& in_B) {
   return R_WB * in_B * R_WB.transpose();
+}
+
+// The force where W goes on along the normal as d^(p + 1), p of its present
+// energy, load and stiffness, and gives way by the layers; or nothing.
+std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
+  constexpr int kHalvings = 40;
+  const Vector3 g = patch.gradient_W.head<3>();
+  const double N = g.norm();
+  const Vector3 n = g / N;
+  const double stiffness = n.dot(patch.hessian_W.topLeftCorner<3, 3>() * n);
+  // 1 / (p + 1)
+  const double share = 1.0 - patch.energy * stiffness / (N * N);
+  const double p = 1.0 / share - 1.0;
+  if (!(p > 0.5 && p < 4.0)) return std::nullopt;
+  const double give = n.dot(R * n) * N * share * N / patch.energy;
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double x = 0.5 * (low + high);
+    (x + give * std::pow(x, p) < 1.0 ? low : high) = x;
+  }
+  return Vector3(-std::pow(0.5 * (low + high), p) * g);
 }
 
 }  // namespace
@@ -25,7 +49,7 @@ SeriesPotential::SeriesPotential(const PlacedBody& A, const PlacedBody& B,
   LIMBER_EXPECT(R_A_.trace() >= 0.0 && R_B_.trace() >= 0.0);
 }
 
-// Newton's method from f = 0, monotone where W's slope is convex, with steps
+// Newton's method from f = 0 and a force by W's power of the depth, with steps
 // that do not raise the energy.
 Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
                                 bool has_derivatives) const {
@@ -56,7 +80,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
     Matrix3 stiffness = patch.hessian_W.topLeftCorner<3, 3>();
     // Not exact where a part ends: along the last step its difference.
     const Vector3 way = R * (f - last);
-    if (!way.isZero(0.0)) {
+    if (i > 1 && !way.isZero(0.0)) {
       stiffness += (gradient - last_gradient - stiffness * way) *
                    way.transpose() / way.squaredNorm();
     }
@@ -66,7 +90,10 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
     last_gradient = gradient;
     f = -(gradient + stiffness * change);
     const bool is_close = (f - last).norm() <= kTolerance * f.norm();
-    if (!is_close && change.norm() > floor) continue;
+    if (!is_close && change.norm() > floor) {
+      if (i == 0) f = find_first_force(patch, R).value_or(f);
+      continue;
+    }
     // The energy is stationary; the wrench is that at the end of the change.
     patch.energy = energy;
     // Where A's own layer lets it give way, as B's does.

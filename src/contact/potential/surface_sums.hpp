@@ -168,11 +168,11 @@ class BendSums {
     bend_ += n_.dot(area) * line.bend;
   }
   void add(std::span<const KeptSums::Point> points) {
+    Line all = begin_line();
     for (const KeptSums::Point& point : points) {
-      Line line = begin_line();
-      line.add(point.depth, point.r, 1.0);
-      add(line, point.area);
+      all.add(point.depth, point.r, n_.dot(point.area));
     }
+    bend_ += all.bend;
   }
   [[nodiscard]] const Matrix6& bend() const { return bend_; }
 
