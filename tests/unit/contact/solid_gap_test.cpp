@@ -109,19 +109,19 @@ int visit_apart(int count, const Use& use) {
 // The distance is at most that of two points of them, and at least the width of
 // a slab between both.
 TEST(SolidGap, IsAsWideAsASlabBetweenBoth) {
-  const int seen = visit_apart(
-      40, [](const ShapeKind& a, const ShapeKind& b, const PairBody& A,
-             const PairBody& B, const SolidGap& gap) {
-        const Vector3& n = gap.normal_W;
-        EXPECT_NEAR(n.norm(), 1.0, 1e-12);
-        const double width =
-            -(find_reach(a, A.R_WB.transpose() * n) +
-              find_reach(b, B.R_WB.transpose() * n) + n.dot(A.p_WB - B.p_WB));
-        EXPECT_NEAR(gap.distance, width, 1e-6);  // round-off of rims
-        EXPECT_LT((gap.on_B - gap.on_A - gap.distance * n).norm(), 1e-12);
-        const double high = n.dot(gap.on_A - A.p_WB);
-        EXPECT_NEAR(high, find_reach(a, A.R_WB.transpose() * n), 1e-6);
-      });
+  const int seen = visit_apart(40, [](const ShapeKind& a, const ShapeKind& b,
+                                      const PairBody& A, const PairBody& B,
+                                      const SolidGap& gap) {
+    const Vector3& n = gap.normal_W;
+    EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    const double width =
+        -(find_reach(a, A.R_WB.transpose() * n) +
+          find_reach(b, -(B.R_WB.transpose() * n)) + n.dot(A.p_WB - B.p_WB));
+    EXPECT_NEAR(gap.distance, width, 1e-6);  // round-off of rims
+    EXPECT_LT((gap.on_B - gap.on_A - gap.distance * n).norm(), 1e-12);
+    const double high = n.dot(gap.on_A - A.p_WB);
+    EXPECT_NEAR(high, find_reach(a, A.R_WB.transpose() * n), 1e-6);
+  });
   EXPECT_GT(seen, 500);
 }
 
