@@ -129,8 +129,9 @@ std::optional<ShapeName> read_shape_name(TomlTable& table) {
         std::find(shapes.begin(), shapes.end(), *shape) != shapes.end()) {
       continue;
     }
-    table.fail(key, fmt::format("has no meaning for a {}; leave it out",
-                                *table.text("shape")));
+    const char* article = *shape == ShapeName::ellipsoid ? "an" : "a";
+    table.fail(key, fmt::format("has no meaning for {} {}; leave it out",
+                                article, *table.text("shape")));
   }
   return shape;
 }
