@@ -9,7 +9,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
-#include "limber/results/energy_audit.hpp"
+#include "limber/results/energy_error.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::trade {
@@ -138,7 +138,8 @@ Outcome Study::simulate(const Choice& choice) const {
     outcome.stopped = find_reason(outcome.run.failure);
     return outcome;
   }
-  outcome.drift = results::audit_energy(outcome.run.history).relative_largest();
+  outcome.drift =
+      results::find_energy_error(outcome.run.history).relative_largest();
   find_cost(outcome);
   return outcome;
 }

@@ -52,7 +52,7 @@ class Bushing : public WithoutSwitches,
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion) const;
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& /*memory*/,
-                                         const Instant& /*now*/) const {
+                                         const EvaluationTime& /*now*/) const {
     return evaluate(motion);
   }
   /// The response at the mean motion: exact for a quadratic energy.

@@ -20,7 +20,8 @@ static_assert(check_kinds(static_cast<const CouplerLaw*>(nullptr)));
 }  // namespace
 
 CouplerResponse evaluate(const CouplerLaw& law, const RelativeMotion& motion,
-                         const CouplerMemory& memory, const Instant& now) {
+                         const CouplerMemory& memory,
+                         const EvaluationTime& now) {
   return std::visit(
       [&](const auto& own) { return own.evaluate(motion, memory, now); }, law);
 }
@@ -93,7 +94,8 @@ std::vector<int> find_inputs(const CouplerLaw& law) {
 
 Vector6 find_target_velocity(const CouplerLaw& law,
                              const RelativeMotion& motion,
-                             const CouplerMemory& memory, const Instant& now) {
+                             const CouplerMemory& memory,
+                             const EvaluationTime& now) {
   return std::visit(
       [&](const auto& own) {
         return own.find_target_velocity(motion, memory, now);
@@ -118,7 +120,7 @@ std::vector<AxisCoordinate::Kind> reading_kinds(const CouplerLaw& law) {
 
 CoordinateReading read(const CouplerLaw& law, int coordinate,
                        const RelativeMotion& motion,
-                       const CouplerMemory& memory, const Instant& now) {
+                       const CouplerMemory& memory, const EvaluationTime& now) {
   return std::visit(
       [&](const auto& own) {
         return own.read(coordinate, motion, memory, now);

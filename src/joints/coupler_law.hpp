@@ -23,7 +23,7 @@ using CouplerLaw = std::variant<Bushing, PointSpring, Joint, Latch>;
 [[nodiscard]] CouplerResponse evaluate(const CouplerLaw& law,
                                        const RelativeMotion& motion,
                                        const CouplerMemory& memory,
-                                       const Instant& now);
+                                       const EvaluationTime& now);
 /// Response over a step that balances energies exactly
 /// (discrete_gradient.hpp).
 /// @throws NumericalError as the law does.
@@ -74,7 +74,7 @@ void update_memory(const CouplerLaw& law, int index,
 [[nodiscard]] Vector6 find_target_velocity(const CouplerLaw& law,
                                            const RelativeMotion& motion,
                                            const CouplerMemory& memory,
-                                           const Instant& now);
+                                           const EvaluationTime& now);
 
 /// Stiffness of the directions that the law should constrain, none for a law
 /// that is meant to deflect; and its deflection in those directions.
@@ -93,6 +93,6 @@ void update_memory(const CouplerLaw& law, int index,
 [[nodiscard]] CoordinateReading read(const CouplerLaw& law, int coordinate,
                                      const RelativeMotion& motion,
                                      const CouplerMemory& memory,
-                                     const Instant& now);
+                                     const EvaluationTime& now);
 
 }  // namespace limber::joints

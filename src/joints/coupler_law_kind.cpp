@@ -18,7 +18,7 @@ const std::vector<JointElement>& WithoutCoordinates::elements() {
 CoordinateReading WithoutReadings::read(int /*coordinate*/,
                                         const RelativeMotion& /*motion*/,
                                         const CouplerMemory& /*memory*/,
-                                        const Instant& /*now*/) {
+                                        const EvaluationTime& /*now*/) {
   throw ContractError("a coordinate of a law that has none");
 }
 

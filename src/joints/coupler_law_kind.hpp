@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/coordinates/discrete_gradient.hpp"
 #include "limber/joints/coordinates/motion.hpp"
@@ -23,7 +23,8 @@ namespace limber::joints {
 /// `evaluate_over_step` balances energies exactly (discrete_gradient.hpp).
 template <typename Law>
 concept ExertsForce = requires(const Law& law, const RelativeMotion& motion,
-                               const CouplerMemory& memory, const Instant& now,
+                               const CouplerMemory& memory,
+                               const EvaluationTime& now,
                                const MotionStep& step, const StepTimes& times) {
   { law.evaluate(motion, memory, now) } -> std::same_as<CouplerResponse>;
   {
@@ -93,7 +94,7 @@ struct WithoutCoordinates {
 template <typename Law>
 concept HasCommands = requires(const Law& law, const RelativeMotion& motion,
                                const CouplerMemory& memory,
-                               const Instant& now) {
+                               const EvaluationTime& now) {
   { law.break_times() } -> std::same_as<std::vector<double>>;
   { law.find_inputs() } -> std::same_as<std::vector<int>>;
   { law.find_target_velocity(motion, memory, now) } -> std::same_as<Vector6>;
@@ -103,7 +104,7 @@ struct WithoutCommands {
   [[nodiscard]] static std::vector<int> find_inputs() { return {}; }
   [[nodiscard]] static Vector6 find_target_velocity(
       const RelativeMotion& /*motion*/, const CouplerMemory& /*memory*/,
-      const Instant& /*now*/) {
+      const EvaluationTime& /*now*/) {
     return Vector6::Zero();
   }
 };
@@ -132,7 +133,7 @@ template <typename Law>
 concept HasReadings = requires(const Law& law, int coordinate,
                                const RelativeMotion& motion,
                                const CouplerMemory& memory,
-                               const Instant& now) {
+                               const EvaluationTime& now) {
   { law.reading_kinds() } -> std::same_as<std::vector<AxisCoordinate::Kind>>;
   {
     law.read(coordinate, motion, memory, now)
@@ -146,7 +147,7 @@ struct WithoutReadings {
   [[nodiscard]] static CoordinateReading read(int coordinate,
                                               const RelativeMotion& motion,
                                               const CouplerMemory& memory,
-                                              const Instant& now);
+                                              const EvaluationTime& now);
 };
 
 template <typename Law>

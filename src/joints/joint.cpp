@@ -29,7 +29,7 @@ Joint::Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
 
 CouplerResponse Joint::evaluate(const RelativeMotion& motion,
                                 const CouplerMemory& memory,
-                                const Instant& now) const {
+                                const EvaluationTime& now) const {
   CouplerResponse response = std::visit(
       [&](const auto& hold) { return hold.evaluate(motion); }, hold());
   if (elements().empty()) return response;
@@ -136,7 +136,7 @@ std::vector<int> Joint::find_inputs() const {
 
 Vector6 Joint::find_target_velocity(const RelativeMotion& motion,
                                     const CouplerMemory& memory,
-                                    const Instant& now) const {
+                                    const EvaluationTime& now) const {
   Vector6 target = Vector6::Zero();
   for (std::size_t i = 0; i < coordinates().size(); ++i) {
     TargetRate sum;
@@ -176,7 +176,7 @@ std::vector<AxisCoordinate::Kind> Joint::reading_kinds() const {
 
 CoordinateReading Joint::read(int coordinate, const RelativeMotion& motion,
                               const CouplerMemory& memory,
-                              const Instant& now) const {
+                              const EvaluationTime& now) const {
   LIMBER_EXPECT(coordinate >= 0 && coordinate < std::ssize(coordinates()));
   const auto i = static_cast<std::size_t>(coordinate);
   const CoordinateValue value =

@@ -46,7 +46,7 @@ class Joint : public WithoutTriggers {
   /// @throws NumericalError as AxisCoordinate does.
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
-                                         const Instant& now) const;
+                                         const EvaluationTime& now) const;
   /// The sum of the hold's wrench at the mean and of each element's response
   /// over the step.
   /// @throws NumericalError as AxisCoordinate does.
@@ -68,7 +68,7 @@ class Joint : public WithoutTriggers {
   [[nodiscard]] std::vector<int> find_inputs() const;
   [[nodiscard]] Vector6 find_target_velocity(const RelativeMotion& motion,
                                              const CouplerMemory& memory,
-                                             const Instant& now) const;
+                                             const EvaluationTime& now) const;
 
   [[nodiscard]] std::optional<HoldStiffness> find_hold_stiffness() const;
   [[nodiscard]] HoldGive find_give(const HoldStiffness& stiffness,
@@ -81,7 +81,7 @@ class Joint : public WithoutTriggers {
   [[nodiscard]] CoordinateReading read(int coordinate,
                                        const RelativeMotion& motion,
                                        const CouplerMemory& memory,
-                                       const Instant& now) const;
+                                       const EvaluationTime& now) const;
 
  private:
   // An element, and the index of one of its switches.

@@ -38,7 +38,7 @@ class Latch : public WithoutCoordinates,
                                          const CouplerMemory& memory) const;
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
-                                         const Instant& /*now*/) const {
+                                         const EvaluationTime& /*now*/) const {
     return evaluate(motion, memory);
   }
   /// The response at the mean, as that of its bushing.

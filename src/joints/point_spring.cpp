@@ -143,7 +143,7 @@ SwitchValue PointSpring::find_switch(int /*index*/,
 CoordinateReading PointSpring::read(int coordinate,
                                     const RelativeMotion& motion,
                                     const CouplerMemory& memory,
-                                    const Instant& now) const {
+                                    const EvaluationTime& now) const {
   LIMBER_EXPECT(coordinate == 0);
   const Vector3 force = evaluate(motion, memory, now).wrench.head<3>();
   const double length = motion.p_FM_F.norm();

@@ -46,7 +46,7 @@ class PointSpring : public WithoutTriggers,
                                          SwitchMode mode = {}) const;
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
-                                         const Instant& /*now*/) const {
+                                         const EvaluationTime& /*now*/) const {
     return evaluate(motion, memory.switches[0]);
   }
   /// Uses the mean and the difference of the lengths at both ends, and acts
@@ -75,7 +75,7 @@ class PointSpring : public WithoutTriggers,
   [[nodiscard]] CoordinateReading read(int coordinate,
                                        const RelativeMotion& motion,
                                        const CouplerMemory& memory,
-                                       const Instant& now) const;
+                                       const EvaluationTime& now) const;
 
  private:
   [[nodiscard]] CouplerResponse evaluate_without_length(

@@ -38,31 +38,31 @@ constexpr std::uint32_t kArchitecture = 0;  // no filter
 #endif
 
 /// What a refused call would have done, for the message.
-enum class Deed { program, process, writing, network };
+enum class Action { program, process, writing, network };
 
 struct Refusal {
   std::uint32_t call;
-  Deed deed;
+  Action deed;
 };
 
 // Calls that end the mesher with a message. Any call neither here nor among the
 // needed ones fails with ENOSYS.
 constexpr Refusal kRefusals[] = {
-    {SYS_execve, Deed::program},    {SYS_execveat, Deed::program},
-    {SYS_socket, Deed::network},    {SYS_socketpair, Deed::network},
-    {SYS_mkdirat, Deed::writing},   {SYS_mknodat, Deed::writing},
-    {SYS_unlinkat, Deed::writing},  {SYS_linkat, Deed::writing},
-    {SYS_symlinkat, Deed::writing}, {SYS_fchmodat, Deed::writing},
-    {SYS_fchownat, Deed::writing},  {SYS_truncate, Deed::writing},
-    {SYS_ftruncate, Deed::writing}, {SYS_renameat2, Deed::writing},
-    {SYS_utimensat, Deed::writing}, {SYS_renameat, Deed::writing},
+    {SYS_execve, Action::program},    {SYS_execveat, Action::program},
+    {SYS_socket, Action::network},    {SYS_socketpair, Action::network},
+    {SYS_mkdirat, Action::writing},   {SYS_mknodat, Action::writing},
+    {SYS_unlinkat, Action::writing},  {SYS_linkat, Action::writing},
+    {SYS_symlinkat, Action::writing}, {SYS_fchmodat, Action::writing},
+    {SYS_fchownat, Action::writing},  {SYS_truncate, Action::writing},
+    {SYS_ftruncate, Action::writing}, {SYS_renameat2, Action::writing},
+    {SYS_utimensat, Action::writing}, {SYS_renameat, Action::writing},
 #if defined(__x86_64__)
-    {SYS_fork, Deed::process},      {SYS_vfork, Deed::process},
-    {SYS_creat, Deed::writing},     {SYS_mkdir, Deed::writing},
-    {SYS_rmdir, Deed::writing},     {SYS_mknod, Deed::writing},
-    {SYS_unlink, Deed::writing},    {SYS_rename, Deed::writing},
-    {SYS_link, Deed::writing},      {SYS_symlink, Deed::writing},
-    {SYS_chmod, Deed::writing},     {SYS_chown, Deed::writing},
+    {SYS_fork, Action::process},      {SYS_vfork, Action::process},
+    {SYS_creat, Action::writing},     {SYS_mkdir, Action::writing},
+    {SYS_rmdir, Action::writing},     {SYS_mknod, Action::writing},
+    {SYS_unlink, Action::writing},    {SYS_rename, Action::writing},
+    {SYS_link, Action::writing},      {SYS_symlink, Action::writing},
+    {SYS_chmod, Action::writing},     {SYS_chown, Action::writing},
 #endif
 };
 
@@ -237,13 +237,13 @@ const char* describe(int call) {
   for (const Refusal& refusal : kRefusals) {
     if (refusal.call != static_cast<std::uint32_t>(call)) continue;
     switch (refusal.deed) {
-      case Deed::program:
+      case Action::program:
         return "run a program";
-      case Deed::process:
+      case Action::process:
         return "start a process";
-      case Deed::writing:
+      case Action::writing:
         return "change a file or folder";
-      case Deed::network:
+      case Action::network:
         return "use the network";
     }
   }

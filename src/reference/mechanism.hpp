@@ -115,8 +115,8 @@ struct Mechanism {
   std::vector<SpringElement> springs;
   std::vector<LoadElement> loads;
   std::vector<HistoryElement> histories;
-  Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
-  std::vector<MechanismFrame> watched;  ///< whose motion is reported
+  Vector3 gravity_W = Vector3::Zero();   ///< [m/s^2]
+  std::vector<MechanismFrame> observed;  ///< whose motion is reported
 };
 
 }  // namespace limber::reference

@@ -156,7 +156,7 @@ class Translator {
     for (const scene::BodyPlan& plan : plans_.bodies) {
       if (plan.is_world) continue;
       const int link = plan.links.front();
-      mechanism_.watched.push_back({link, X_LB(link)});
+      mechanism_.observed.push_back({link, X_LB(link)});
     }
     return mechanism_;
   }

@@ -11,7 +11,7 @@ namespace limber::reference {
 /// and loads on rigid links come directly from the robot and the scenario, so
 /// that merged links, centres of mass and initial poses of `built` are tested.
 /// The parameters of couplers, the mass properties of flexible links and the
-/// positions of their interfaces come from `built`. The watched frames are the
+/// positions of their interfaces come from `built`. The observed frames are the
 /// body frames of `built`, in its order.
 /// @throws InputError if a link is not at level `rigid`.
 [[nodiscard]] Mechanism make_mechanism(const scene::Scene& scene,

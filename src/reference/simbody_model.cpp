@@ -347,8 +347,8 @@ Snapshot SimbodyModel::observe(const State& state) const {
   system_.realize(state, SimTK::Stage::Velocity);
   Snapshot snapshot;
   snapshot.time = state.getTime();
-  for (const MechanismFrame& watched : mechanism_.watched) {
-    const SimbodyFrame B = frame(watched);
+  for (const MechanismFrame& observed : mechanism_.observed) {
+    const SimbodyFrame B = frame(observed);
     const Rotation R_WB = B.body.getBodyRotation(state) * B.X_LF.R();
     dynamics::BodyState motion;
     motion.p_WB =

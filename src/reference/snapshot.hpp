@@ -7,10 +7,10 @@
 
 namespace limber::reference {
 
-/// The watched frames at one time.
+/// The observed frames at one time.
 struct Snapshot {
   double time = 0.0;                        ///< [s]
-  std::vector<dynamics::BodyState> frames;  ///< one a watched frame
+  std::vector<dynamics::BodyState> frames;  ///< one a observed frame
   double kinetic = 0.0;                     ///< [J]
   double coupler = 0.0;                     ///< in bushings and springs [J]
 };

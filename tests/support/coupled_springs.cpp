@@ -30,7 +30,7 @@ CoupledSprings::CoupledSprings(int modes_A, int modes_B, unsigned seed) {
 }
 
 void CoupledSprings::evaluate(const joints::PairBodies& bodies,
-                              const Instant& /*now*/,
+                              const EvaluationTime& /*now*/,
                               std::span<const double> /*memory*/,
                               joints::PairResponse& out) const {
   VectorX stretch(3 * kPoints);

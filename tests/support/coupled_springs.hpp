@@ -23,7 +23,7 @@ class CoupledSprings final : public joints::PairInteraction {
   [[nodiscard]] std::size_t most_points() const override { return kPoints; }
   [[nodiscard]] bool couples_points() const override { return true; }
   void check(int /*modes_A*/, int /*modes_B*/) const override {}
-  void evaluate(const joints::PairBodies& bodies, const Instant& now,
+  void evaluate(const joints::PairBodies& bodies, const EvaluationTime& now,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override;
 

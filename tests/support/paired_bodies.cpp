@@ -173,7 +173,7 @@ void SphereContact::add_point(const joints::PairBodies& bodies, const Gap& gap,
 }
 
 void SphereContact::evaluate(const joints::PairBodies& bodies,
-                             const Instant& /*now*/,
+                             const EvaluationTime& /*now*/,
                              std::span<const double> /*memory*/,
                              joints::PairResponse& out) const {
   const Gap gap = find_gap(bodies);

@@ -47,7 +47,7 @@ class SphereContact final : public joints::PairInteraction {
   void describe_parameters(Manifest& out) const override;
   [[nodiscard]] std::size_t most_points() const override { return 1; }
   void check(int /*modes_A*/, int /*modes_B*/) const override {}
-  void evaluate(const joints::PairBodies& bodies, const Instant& now,
+  void evaluate(const joints::PairBodies& bodies, const EvaluationTime& now,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override;
   void evaluate_over_step(const joints::PairStep& step,

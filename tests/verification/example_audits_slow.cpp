@@ -11,7 +11,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
-#include "limber/results/energy_audit.hpp"
+#include "limber/results/energy_error.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "places.hpp"
 #include "unit/results/temporary_folder.hpp"
@@ -77,7 +77,7 @@ Audit audit(const scene::Scene& scene) {
   const auto& events = run.history.events;
   const dynamics::EnergyRecord& energy = run.record.energy;
   return {
-      results::audit_energy(run.history).relative_largest().value_or(1.0),
+      results::find_energy_error(run.history).relative_largest().value_or(1.0),
       std::abs(energy.worst.drift.value) / energy.worst.throughput,
       std::any_of(events.begin(), events.end(), [](const dynamics::Event& e) {
         return e.what == "latched";

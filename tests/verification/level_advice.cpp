@@ -99,14 +99,14 @@ class AdviceOnBeam : public ::testing::Test {
     return largest;
   }
 
-  /// What a survey of a run at `level` finds.
+  /// What a level_observer of a run at `level` finds.
   static dynamics::BodyPeaks survey_run(Fidelity level, const Motion& motion) {
     const dynamics::SystemModel source = make_model(motion, level);
     const dynamics::SystemModel model = make_model(motion, Fidelity::uncoupled);
-    dynamics::LevelSurvey survey(model);
+    dynamics::LevelObserver level_observer(model);
     for (const SystemState& state : run(source, motion))
-      survey.include(source, state);
-    return survey.find_peaks().front();
+      level_observer.include(source, state);
+    return level_observer.find_peaks().front();
   }
 
   static dynamics::LevelAdvice advise_after(Fidelity level,
@@ -170,9 +170,9 @@ TEST_F(AdviceOnBeam, LeavesOutNoMoreThanTheUserNeglects) {
     const auto error = [&](Fidelity level) {
       return find_distance(run(make_model(motion, level), motion), coupled);
     };
-    for (const Fidelity watched :
+    for (const Fidelity observed :
          {Fidelity::rigid, Fidelity::uncoupled, Fidelity::coupled}) {
-      const dynamics::LevelAdvice advice = advise_after(watched, motion);
+      const dynamics::LevelAdvice advice = advise_after(observed, motion);
       const Fidelity level = lower_to_coupled(advice.level);
       EXPECT_LE(error(level), kNeglected) << motion.name;
       expect_estimate(advice.errors.rigid, error(Fidelity::rigid), motion.name);

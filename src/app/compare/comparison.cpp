@@ -13,7 +13,7 @@
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/results/energy_audit.hpp"
+#include "limber/results/energy_error.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 
@@ -191,7 +191,8 @@ class Runner {
     ComparedRun result;
     result.choice = choice;
     result.cost = find_cost(run);
-    result.energy_drift = results::audit_energy(run.history).relative_largest();
+    result.energy_drift =
+        results::find_energy_error(run.history).relative_largest();
     result.contacts = sum_up(run.record.contacts);
     result.history.columns = run.history.columns;
     result.history.times = run.history.times;

@@ -11,7 +11,7 @@
 
 #include "limber/app/console/completion.hpp"
 #include "limber/app/console/exit_status.hpp"
-#include "limber/app/console/habits.hpp"
+#include "limber/app/console/global_flags.hpp"
 #include "limber/app/console/help_text.hpp"
 #include "limber/app/console/manual.hpp"
 #include "limber/app/console/process.hpp"
@@ -102,7 +102,7 @@ int run_command_line(int argc, char** argv, const AddCommands& add_commands) {
   Action action;
   add_commands(app, action);
   app.footer(describe_surroundings());  // of this help alone
-  const Habits habits = add_habits(app);
+  const SharedGlobalFlags flags = add_global_flags(app);
   bool is_answered = false;
   const int status =
       run_guarded([&] { is_answered = answers_tool(app, argc, argv); });
@@ -113,7 +113,7 @@ int run_command_line(int argc, char** argv, const AddCommands& add_commands) {
     return end_process(finish_parse(app, error));
   }
   return end_process(run_guarded([&] {
-    follow_habits(app, *habits);
+    follow_global_flags(app, *flags);
     action();
     print_cost();
   }));

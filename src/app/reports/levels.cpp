@@ -164,13 +164,13 @@ scene::BuiltScene build_at_level(
                              known);
 }
 
-std::vector<BodyLevel> judge_levels(const SystemModel& model,
-                                    const dynamics::LevelSurvey& survey,
-                                    const std::vector<Fidelity>& used,
-                                    const dynamics::AdviceSettings& settings) {
+std::vector<BodyLevel> judge_levels(
+    const SystemModel& model, const dynamics::LevelObserver& level_observer,
+    const std::vector<Fidelity>& used,
+    const dynamics::AdviceSettings& settings) {
   std::vector<BodyLevel> levels;
-  auto tracks = survey.tracks();
-  for (const dynamics::BodyPeaks& peaks : survey.find_peaks()) {
+  auto tracks = level_observer.tracks();
+  for (const dynamics::BodyPeaks& peaks : level_observer.find_peaks()) {
     const auto b = static_cast<std::size_t>(peaks.body);
     const dynamics::BodyModel& body = model.bodies[b];
     BodyLevel level;
@@ -186,40 +186,42 @@ std::vector<BodyLevel> judge_levels(const SystemModel& model,
   return levels;
 }
 
-RunSurvey::RunSurvey(const scene::Scene& scene, const scene::BuiltScene& built,
-                     const std::filesystem::path& cache)
+RunLevelObserver::RunLevelObserver(const scene::Scene& scene,
+                                   const scene::BuiltScene& built,
+                                   const std::filesystem::path& cache)
     : scene_(scene), built_(built) {
   if (!has_flexible_body(built.model)) return;
   model_ = find_flexible_model(scene, built, cache);
-  survey_.emplace(model_);
+  level_observer_.emplace(model_);
 }
 
-std::optional<dynamics::Spectator> RunSurvey::make_spectator() {
-  if (!survey_) return std::nullopt;
-  return dynamics::Spectator{
-      [this] { survey_.emplace(model_); },
+std::optional<dynamics::MotionObserver>
+RunLevelObserver::make_motion_observer() {
+  if (!level_observer_) return std::nullopt;
+  return dynamics::MotionObserver{
+      [this] { level_observer_.emplace(model_); },
       [this](const dynamics::SystemState& state) { include(state); },
-      [this](Archive& archive) { survey_->exchange_memory(archive); }};
+      [this](Archive& archive) { level_observer_->exchange_memory(archive); }};
 }
 
-void RunSurvey::include(const dynamics::SystemState& state) {
-  if (!survey_) return;
+void RunLevelObserver::include(const dynamics::SystemState& state) {
+  if (!level_observer_) return;
   if (built_.model.full_bodies.empty()) {
-    survey_->include(built_.model, state);
+    level_observer_->include(built_.model, state);
     return;
   }
   framed_ = state;
   dynamics::update_mean_frames(built_.model, framed_);
-  survey_->include(built_.model, framed_);
+  level_observer_->include(built_.model, framed_);
 }
 
-std::vector<BodyLevel> RunSurvey::judge() const {
-  if (!survey_) return {};
+std::vector<BodyLevel> RunLevelObserver::judge() const {
+  if (!level_observer_) return {};
   std::vector<Fidelity> used;
   for (const dynamics::BodyModel& body : built_.model.bodies) {
     used.push_back(body.fidelity);
   }
-  return judge_levels(model_, *survey_, used, scene_.scenario.advice);
+  return judge_levels(model_, *level_observer_, used, scene_.scenario.advice);
 }
 
 SceneAdvice advise_scene(const scene::Scene& scene,
@@ -236,13 +238,13 @@ SceneAdvice advise_scene(const scene::Scene& scene,
   const scene::BuiltScene rigid =
       build_at_level(leave_out_stress(scene), dynamics::Fidelity::rigid,
                      flexible.known, cache);
-  std::optional<dynamics::LevelSurvey> survey(flexible.model);
+  std::optional<dynamics::LevelObserver> level_observer(flexible.model);
   dynamics::Followed followed;
-  followed.spectator = {[&] { survey.emplace(flexible.model); },
-                        [&](const dynamics::SystemState& now) {
-                          survey->include(rigid.model, now);
-                        },
-                        {}};
+  followed.motion_observer = {[&] { level_observer.emplace(flexible.model); },
+                              [&](const dynamics::SystemState& now) {
+                                level_observer->include(rigid.model, now);
+                              },
+                              {}};
   dynamics::SimulationSettings settings = rigid.settings;
   settings.output_times.clear();
   dynamics::SystemState state = rigid.initial;
@@ -252,7 +254,7 @@ SceneAdvice advise_scene(const scene::Scene& scene,
                      number_stage(progress, 2, 2), statistics, {}, followed,
                      record);
   SceneAdvice advice{scene.scenario.file.string(),
-                     judge_levels(flexible.model, *survey,
+                     judge_levels(flexible.model, *level_observer,
                                   find_asked(scene.scenario, flexible.model),
                                   scene.scenario.advice),
                      flexible.warnings, flexible.notes};

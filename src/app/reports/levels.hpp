@@ -40,28 +40,29 @@ struct BodyLevel {
   [[nodiscard]] bool is_more_than_needed() const { return used > advice.level; }
 };
 
-/// Advice on every flexible body that `survey` observed.
-/// @param model the survey's
+/// Advice on every flexible body that `level_observer` observed.
+/// @param model the level_observer's
 /// @param used one level a body of the model
 [[nodiscard]] std::vector<BodyLevel> judge_levels(
-    const dynamics::SystemModel& model, const dynamics::LevelSurvey& survey,
+    const dynamics::SystemModel& model,
+    const dynamics::LevelObserver& level_observer,
     const std::vector<dynamics::Fidelity>& used,
     const dynamics::AdviceSettings& settings);
 
 /// Observes a run of a scene at every step, to judge whether its levels were
 /// justified.
-class RunSurvey {
+class RunLevelObserver {
  public:
   /// Bodies at level `full` are reduced here. @param scene, built stored by
   /// reference
-  RunSurvey(const scene::Scene& scene, const scene::BuiltScene& built,
-            const std::filesystem::path& cache);
-  RunSurvey(const RunSurvey&) = delete;
-  RunSurvey& operator=(const RunSurvey&) = delete;
-  ~RunSurvey() = default;
+  RunLevelObserver(const scene::Scene& scene, const scene::BuiltScene& built,
+                   const std::filesystem::path& cache);
+  RunLevelObserver(const RunLevelObserver&) = delete;
+  RunLevelObserver& operator=(const RunLevelObserver&) = delete;
+  ~RunLevelObserver() = default;
 
   /// @returns an observer that refers to this; none if no body is flexible
-  [[nodiscard]] std::optional<dynamics::Spectator> make_spectator();
+  [[nodiscard]] std::optional<dynamics::MotionObserver> make_motion_observer();
   void include(const dynamics::SystemState& state);
   [[nodiscard]] std::vector<BodyLevel> judge() const;
 
@@ -69,7 +70,7 @@ class RunSurvey {
   const scene::Scene& scene_;
   const scene::BuiltScene& built_;
   dynamics::SystemModel model_;  // every flexible body at `uncoupled`
-  std::optional<dynamics::LevelSurvey> survey_;
+  std::optional<dynamics::LevelObserver> level_observer_;
   dynamics::SystemState framed_;  // with mean frames of full bodies
 };
 

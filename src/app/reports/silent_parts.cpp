@@ -8,8 +8,8 @@
 #include <optional>
 #include <variant>
 
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/index.hpp"
-#include "limber/common/instant.hpp"
 
 namespace limber::app {
 namespace {

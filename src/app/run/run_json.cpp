@@ -10,7 +10,7 @@
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
-#include "limber/results/energy_audit.hpp"
+#include "limber/results/energy_error.hpp"
 
 namespace limber::app {
 namespace {
@@ -36,14 +36,14 @@ Json summarize_energy(const results::History& history,
                       const dynamics::EnergyRecord& record) {
   Json json = Json::object();
   if (history.energies.empty()) return json;
-  const results::EnergyAudit audit = results::audit_energy(history);
-  json["initial"] = audit.initial;
-  json["final"] = audit.final;
-  json["dissipated"] = audit.dissipated;
-  json["work"] = audit.work;
-  json["drift"] = audit.drift;
-  json["throughput"] = audit.throughput;
-  const std::optional<double> relative = audit.relative();
+  const results::EnergyError energy = results::find_energy_error(history);
+  json["initial"] = energy.initial;
+  json["final"] = energy.final;
+  json["dissipated"] = energy.dissipated;
+  json["work"] = energy.work;
+  json["drift"] = energy.drift;
+  json["throughput"] = energy.throughput;
+  const std::optional<double> relative = energy.relative();
   json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
   json["largest_drift"] = describe_extreme(record.drift);
   json["open_share"] = dynamics::find_open_share(record.worst);

@@ -12,20 +12,20 @@
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
-#include "limber/results/energy_audit.hpp"
+#include "limber/results/energy_error.hpp"
 #include "limber/scene/scenario/time_settings_reader.hpp"
 
 namespace limber::app {
 namespace {
 
-/// Error of the energy audit relative to the throughput.
+/// Error of the energy energy relative to the throughput.
 std::string describe_drift(const Run& run) {
-  const results::EnergyAudit audit = results::audit_energy(run.history);
-  const std::optional<double> relative = audit.relative();
+  const results::EnergyError energy = results::find_energy_error(run.history);
+  const std::optional<double> relative = energy.relative();
   if (!relative) return "";
   const dynamics::EnergyDrift& worst = run.record.energy.worst;
   std::string text = fmt::format("; drift {:.2g} J, {:.1e} of the throughput",
-                                 audit.drift, *relative);
+                                 energy.drift, *relative);
   if (!(worst.throughput > 0.0)) return text;
   return text + fmt::format(", at most {:.1e} at {:.4g} s",
                             std::abs(worst.drift.value) / worst.throughput,

@@ -97,10 +97,10 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   run.history.columns = list_columns(run.built.probes);
   dynamics::Followed followed =
       scene::follow(run.built.probes, run.built.model);
-  std::optional<RunSurvey> survey;
+  std::optional<RunLevelObserver> level_observer;
   if (judges) {
-    survey.emplace(run.scene, run.built, cache);
-    followed.spectator = survey->make_spectator();
+    level_observer.emplace(run.scene, run.built, cache);
+    followed.motion_observer = level_observer->make_motion_observer();
   }
   const dynamics::Continuation continuation = make_continuation(
       checkpoints, [&] { return make_manifest(run.scene, run.built); },
@@ -116,7 +116,7 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
                                              run.record.contacts)) {
     run.statistics.warnings.push_back(std::move(text));
   }
-  if (survey) run.levels = survey->judge();
+  if (level_observer) run.levels = level_observer->judge();
   run.history.events = run.statistics.events;
   return run;
 }

@@ -16,7 +16,7 @@
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/monitors/hold_watch.hpp"
+#include "limber/dynamics/monitors/deflection_observer.hpp"
 #include "limber/results/pictures.hpp"
 #include "limber/results/probes_csv.hpp"
 #include "limber/results/results_file.hpp"
@@ -41,9 +41,9 @@ bool is_unstable(const StaticReport& report) {
 
 void add_static_warnings(const std::filesystem::path& cache, StaticRun& run) {
   run.warnings = run.built.warnings;
-  RunSurvey survey(run.scene, run.built, cache);
-  survey.include(run.found.state);
-  const auto levels = find_level_warnings(survey.judge());
+  RunLevelObserver level_observer(run.scene, run.built, cache);
+  level_observer.include(run.found.state);
+  const auto levels = find_level_warnings(level_observer.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
   const auto holds =
       dynamics::find_hold_warnings(run.built.model, run.found.state);

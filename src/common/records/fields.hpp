@@ -7,7 +7,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/pose.hpp"
 
 namespace limber {

@@ -192,7 +192,7 @@ double PatchPair::find_released(const PatchTouches& touches, double t,
   return power;
 }
 
-void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
+void PatchPair::evaluate(const PairBodies& bodies, const EvaluationTime& now,
                          std::span<const double> memory,
                          joints::PairResponse& out) const {
   const PatchTouches touches = finder_->find_patches(bodies, true);

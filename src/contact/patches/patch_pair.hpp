@@ -40,7 +40,7 @@ class PatchPair final : public joints::PairInteraction,
   [[nodiscard]] bool couples_points() const override { return true; }
   [[nodiscard]] std::size_t memory_size() const override;
   void check(int modes_A, int modes_B) const override;
-  void evaluate(const joints::PairBodies& bodies, const Instant& now,
+  void evaluate(const joints::PairBodies& bodies, const EvaluationTime& now,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override;
   void evaluate_over_step(const joints::PairStep& step,
@@ -70,7 +70,7 @@ class PatchPair final : public joints::PairInteraction,
                     std::span<double> memory) const override;
   void end_touch(std::span<double> memory) const override;
   [[nodiscard]] joints::TouchReading read(
-      const joints::PairBodies& bodies, const Instant& now,
+      const joints::PairBodies& bodies, const EvaluationTime& now,
       std::span<const double> memory,
       joints::PairResponse& scratch) const override;
 

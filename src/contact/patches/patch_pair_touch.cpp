@@ -152,7 +152,7 @@ void PatchPair::end_touch(std::span<double> memory) const {
 
 // Frequency of a spring with the same force and energy, k = N^2 / (2 W).
 joints::TouchReading PatchPair::read(const PairBodies& bodies,
-                                     const Instant& /*now*/,
+                                     const EvaluationTime& /*now*/,
                                      std::span<const double> memory,
                                      joints::PairResponse& /*scratch*/) const {
   constexpr double kMostDamping = 4.0;

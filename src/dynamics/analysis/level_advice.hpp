@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "limber/dynamics/analysis/level_survey.hpp"
+#include "limber/dynamics/analysis/level_observer.hpp"
 
 namespace limber::dynamics {
 

@@ -49,8 +49,9 @@ void add_pair(const SystemModel& model, const Coupler& coupler,
 }
 
 void apply_coupler(const SystemModel& model, const Coupler& coupler,
-                   const joints::CouplerMemory& memory, const Instant& now,
-                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
+                   const joints::CouplerMemory& memory,
+                   const EvaluationTime& now, WrenchSource source,
+                   SystemTerms& terms, CouplerTerms& out) {
   out.motion = relate(frame_motion(terms.attachments[index(coupler.frame_F)]),
                       frame_motion(terms.attachments[index(coupler.frame_M)]));
   out.response = joints::evaluate(coupler.law, out.motion, memory, now);
@@ -62,9 +63,9 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
 
 void apply_transmission(const SystemModel& model, const SystemState& state,
                         const Transmission& transmission,
-                        const joints::CouplerMemory& memory, const Instant& now,
-                        WrenchSource source, SystemTerms& terms,
-                        TransmissionTerms& out) {
+                        const joints::CouplerMemory& memory,
+                        const EvaluationTime& now, WrenchSource source,
+                        SystemTerms& terms, TransmissionTerms& out) {
   calc_coordinate(model, state, transmission, terms, out);
   out.response = evaluate_laws(transmission, out.motion, memory, now);
   if (source == WrenchSource::law) out.applied = out.response.force;
@@ -110,7 +111,7 @@ void add_wrench(const SystemModel& model, AttachmentIndex attachment,
 }
 
 void apply_couplers(const SystemModel& model, const SystemState& state,
-                    const Instant& now, WrenchSource source,
+                    const EvaluationTime& now, WrenchSource source,
                     SystemTerms& terms) {
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     name_coupler(model.couplers[c].name, now.t, [&] {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 
 /// Contributions of couplers and transmissions to the equations of motion;
@@ -36,7 +36,7 @@ void name_coupler(const std::string& name, double t, const Work& work) {
 /// adds their wrenches and powers.
 /// @throws NumericalError naming the coupler and the time.
 void apply_couplers(const SystemModel& model, const SystemState& state,
-                    const Instant& now, WrenchSource source,
+                    const EvaluationTime& now, WrenchSource source,
                     SystemTerms& terms);
 
 }  // namespace limber::dynamics

@@ -289,7 +289,7 @@ void throw_pair(const std::string& name, double t,
 }
 
 void apply_pairs(const SystemModel& model, const SystemState& state,
-                 const Instant& now, SystemTerms& terms) {
+                 const EvaluationTime& now, SystemTerms& terms) {
   set_pair_bodies(model, state, terms);
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     const Pair& pair = model.pairs[i];

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 
 /// Contributions of pair interactions to the equations of motion.
@@ -77,7 +77,7 @@ class PairMotion {
 /// Evaluates all pairs and adds their forces and powers. Needs R_WB.
 /// @throws NumericalError naming the pair and the time.
 void apply_pairs(const SystemModel& model, const SystemState& state,
-                 const Instant& now, SystemTerms& terms);
+                 const EvaluationTime& now, SystemTerms& terms);
 
 /// Adds a force on a body at a place to the forces on its modes and on their
 /// products. @param force_B body frame [N]

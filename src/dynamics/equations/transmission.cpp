@@ -94,7 +94,7 @@ void calc_coordinate(const SystemModel& model, const SystemState& state,
 joints::ScalarResponse evaluate_laws(const Transmission& transmission,
                                      const joints::ScalarMotion& motion,
                                      const joints::CouplerMemory& memory,
-                                     const Instant& now) {
+                                     const EvaluationTime& now) {
   joints::ScalarResponse sum;
   std::size_t first = 0;  // of a law's switches
   for (const joints::ScalarLaw& law : transmission.laws) {

@@ -22,7 +22,7 @@ void calc_coordinate(const SystemModel& model, const SystemState& state,
 /// Total response of all its laws, with the switches of `memory`.
 [[nodiscard]] joints::ScalarResponse evaluate_laws(
     const Transmission& transmission, const joints::ScalarMotion& motion,
-    const joints::CouplerMemory& memory, const Instant& now);
+    const joints::CouplerMemory& memory, const EvaluationTime& now);
 
 /// Only the motion, at a state.
 [[nodiscard]] joints::ScalarMotion find_motion(

@@ -64,7 +64,7 @@ void SuppliedWork::list_rows() {
 
 void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
                         Side side) {
-  const Instant now = now_of(state, side);
+  const EvaluationTime now = now_of(state, side);
   std::size_t n = 0;
   for (const PlacedDrive& drive : drives_) {
     const auto supply = joints::find_supply(
@@ -91,7 +91,8 @@ void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
 }
 
 // All but the places, which are those of a step.
-void SuppliedWork::read_moments(const SystemTerms& terms, const Instant& now) {
+void SuppliedWork::read_moments(const SystemTerms& terms,
+                                const EvaluationTime& now) {
   const std::size_t first = now_.size() - moments_.size();
   for (std::size_t m = 0; m < moments_.size(); ++m) {
     const Load& load = model_.loads[moments_[m]];

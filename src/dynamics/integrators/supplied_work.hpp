@@ -74,7 +74,7 @@ class SuppliedWork {
   void list_loads();
   void list_rows();
   void read(const SystemState& state, const SystemTerms& terms, Side side);
-  void read_moments(const SystemTerms& terms, const Instant& now);
+  void read_moments(const SystemTerms& terms, const EvaluationTime& now);
   void set_moment_paths(double h);
   static double find_correction(const Path& first, const Path& last, double h);
 

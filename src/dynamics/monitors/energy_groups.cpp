@@ -23,7 +23,7 @@ std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 void exchange(Archive& archive, EnergyGroups::Group& group) {
   archive(group.is_held, group.mass, group.velocity, group.work,
           group.throughput, group.drift, group.worst, group.share);
-  group.watch.exchange_memory(archive);
+  group.observer.exchange_memory(archive);
 }
 
 EnergyGroups::EnergyGroups(const SystemModel& model, bool lags)
@@ -101,9 +101,9 @@ void EnergyGroups::meet(Group& group, const Group& other) const {
         (group.mass * group.velocity + other.mass * other.velocity) / mass;
   }
   const auto add_motion = [&](const Group& of) {
-    group.watch.add(0.5 * of.mass * (of.velocity - velocity).squaredNorm());
+    group.observer.add(0.5 * of.mass * (of.velocity - velocity).squaredNorm());
   };
-  group.watch.add(other.watch.supplied());
+  group.observer.add(other.observer.supplied());
   add_motion(other);
   add_motion(group);
   group.is_held = is_held;
@@ -152,7 +152,8 @@ void EnergyGroups::start(const std::vector<EnergyAccount>& accounts,
   }
   sum_up(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    groups_[i].watch = EnergyWatch(std::abs(sums_[i].stored) + taken, lags_);
+    groups_[i].observer =
+        EnergyGrowthObserver(std::abs(sums_[i].stored) + taken, lags_);
     groups_[i].throughput = taken;
     include_extremes(i);
   }
@@ -199,7 +200,7 @@ void EnergyGroups::include(const std::vector<EnergyAccount>& accounts,
   double drift = 0.0;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    group.watch.add(sums_[i].work - group.work);
+    group.observer.add(sums_[i].work - group.work);
     group.work = sums_[i].work;
     include_extremes(i);
     if (group.drift.include(sums_[i].error, t)) note_share(i, accounts);
@@ -226,9 +227,9 @@ std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(bool is_end) {
   std::optional<Excess> excess;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    if (group.watch.is_blown_up(sums_[i].stored, is_end, sums_[i].rest) &&
+    if (group.observer.is_blown_up(sums_[i].stored, is_end, sums_[i].rest) &&
         !excess) {
-      excess = Excess{sums_[i].stored, group.watch.supplied()};
+      excess = Excess{sums_[i].stored, group.observer.supplied()};
     }
   }
   return excess;
@@ -236,7 +237,7 @@ std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(bool is_end) {
 
 bool EnergyGroups::has_too_much() const {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (groups_[i].watch.is_too_much(sums_[i].stored, sums_[i].rest)) {
+    if (groups_[i].observer.is_too_much(sums_[i].stored, sums_[i].rest)) {
       return true;
     }
   }

@@ -7,8 +7,8 @@
 #include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/monitors/energy_account.hpp"
+#include "limber/dynamics/monitors/energy_growth_observer.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
-#include "limber/dynamics/monitors/energy_watch.hpp"
 
 namespace limber::dynamics {
 
@@ -25,7 +25,7 @@ inline constexpr double kLeastGrowth = 1.01;
 ///            one, which moves with the mean of both velocities.
 class EnergyGroups {
  public:
-  /// @param lags whether work lags by a step (EnergyWatch)
+  /// @param lags whether work lags by a step (EnergyGrowthObserver)
   /// @param model stored by reference
   EnergyGroups(const SystemModel& model, bool lags);
 
@@ -49,7 +49,8 @@ class EnergyGroups {
     double stored = 0.0;
     double accounted = 0.0;
   };
-  /// A group whose energy can only be a numerical artefact (EnergyWatch).
+  /// A group whose energy can only be a numerical artefact
+  /// (EnergyGrowthObserver).
   [[nodiscard]] std::optional<Excess> find_blow_up(bool is_end);
   /// Whether a group stores more than ten times what is accounted for.
   [[nodiscard]] bool has_too_much() const;
@@ -79,7 +80,7 @@ class EnergyGroups {
     Extreme drift;                       // [J]
     Eigen::Index worst = -1;             // row of its largest share
     double share = 0.0;                  // [J]
-    EnergyWatch watch;
+    EnergyGrowthObserver observer;
   };
   friend void exchange(Archive& archive, Group& group);
   struct Sums {

@@ -31,7 +31,7 @@ struct EnergyDrift {
   double throughput = 0.0;  ///< the largest of |stored|, |work|, dissipated and
                             ///< kinetic energy [J]
   /// Possible round-off of the drift, and what stiff joints may lose without a
-  /// visible displacement (HoldWatch::find_negligible_energies) [J].
+  /// visible displacement (DeflectionObserver::find_negligible_energies) [J].
   double roundoff = 0.0;
   /// Row with the largest error of the drift's sign, as "body 'link'"; empty:
   /// none.

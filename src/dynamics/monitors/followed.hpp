@@ -40,7 +40,7 @@ enum class Course {
 /// Observer of a run's states in order of time: the start, the ends of all
 /// steps (before and after an event of a coupler), and states within steps that
 /// are long for the motion.
-struct Spectator {
+struct MotionObserver {
   std::function<void()> begin;  ///< a run begins or restarts
   std::function<void(const SystemState&)> include;
   std::function<void(Archive&)> exchange_memory;  ///< for checkpoints
@@ -60,9 +60,11 @@ struct Followed {
   std::function<int(std::size_t scalar)> find_place = {};
   /// Largest time between evaluations, for motion faster than the steps [s].
   double longest = std::numeric_limits<double>::infinity();
-  std::optional<Spectator> spectator = {};
+  std::optional<MotionObserver> motion_observer = {};
 
-  [[nodiscard]] bool is_empty() const { return courses.empty() && !spectator; }
+  [[nodiscard]] bool is_empty() const {
+    return courses.empty() && !motion_observer;
+  }
 };
 
 }  // namespace limber::dynamics

@@ -38,7 +38,7 @@ double ImpactSteps::find_slow() const {
   return std::max(step_ * model_.gravity_W.norm(), kLeastSpeed);
 }
 
-double ImpactSteps::limit(double h, const TouchWatch& touches) {
+double ImpactSteps::limit(double h, const ContactStartObserver& touches) {
   if (parts_ == 0) step_ = h;
   const double first = touches.find_first_step(steps_, find_slow());
   is_struck_ = first < kUnlimited || frequency_ > 0.0;
@@ -70,7 +70,7 @@ bool ImpactSteps::turns_back(const joints::TouchReading& now, double h) const {
 // that does not resolve an impact may end it.
 double ImpactSteps::find_approach(std::size_t touch, const SystemState& before,
                                   const SystemState& after,
-                                  TouchWatch& touches) {
+                                  ContactStartObserver& touches) {
   approach_ = after;
   approach_.etadot = before.etadot;
   approach_.udot_H = before.udot_H;
@@ -85,7 +85,8 @@ double ImpactSteps::find_approach(std::size_t touch, const SystemState& before,
 
 std::optional<double> ImpactSteps::find_shorter(const SystemState& before,
                                                 const SystemState& after,
-                                                double h, TouchWatch& touches) {
+                                                double h,
+                                                ContactStartObserver& touches) {
   frequency_ = rest_frequency_ = 0.0;
   is_quiet_ = true;
   if (parts_ > most_parts_) return std::nullopt;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/monitors/touch_watch.hpp"
+#include "limber/dynamics/monitors/contact_start_observer.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -33,13 +33,12 @@ class ImpactSteps {
   ImpactSteps(const SystemModel& model, double steps, int most_parts);
 
   /// Length of the next step, at most h [s].
-  [[nodiscard]] double limit(double h, const TouchWatch& touches);
+  [[nodiscard]] double limit(double h, const ContactStartObserver& touches);
   /// A shorter length for the step of `h` from `before` to `after`, if an
   /// impact in it is not resolved [s].
-  [[nodiscard]] std::optional<double> find_shorter(const SystemState& before,
-                                                   const SystemState& after,
-                                                   double h,
-                                                   TouchWatch& touches);
+  [[nodiscard]] std::optional<double> find_shorter(
+      const SystemState& before, const SystemState& after, double h,
+      ContactStartObserver& touches);
   /// Whether bodies rest on each other, after the last step, that vibrate
   /// faster than steps of h [s] resolve.
   [[nodiscard]] bool rests_stiffly(double h) const;
@@ -68,7 +67,7 @@ class ImpactSteps {
   [[nodiscard]] double find_approach(std::size_t touch,
                                      const SystemState& before,
                                      const SystemState& after,
-                                     TouchWatch& touches);
+                                     ContactStartObserver& touches);
 
   const SystemModel& model_;
   double steps_;

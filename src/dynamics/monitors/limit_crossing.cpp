@@ -17,7 +17,7 @@ enum class Grip { slack, free, at_upper, at_lower };
 // A drive within one step of h [s] from `start`.
 struct DriveStep {
   const PlacedDrive& drive;
-  Instant start;
+  EvaluationTime start;
   double h;
   ScalarMotion a, b;  // at its ends
 
@@ -33,7 +33,7 @@ struct DriveStep {
   }
 
   [[nodiscard]] Grip find_grip(double s) const {
-    Instant now = start;
+    EvaluationTime now = start;
     now.t += s * h;
     const ScalarMotion motion = interpolate(s);
     const double load = joints::find_load(*drive.law, motion, now);

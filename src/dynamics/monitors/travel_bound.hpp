@@ -15,7 +15,8 @@ namespace limber::dynamics {
 /// Equation   way_b += margin h max(v_b), at both ends of a step,
 ///            v_b = |v| + |w| (extent + sum reach_k |eta_k|)
 ///            + sum reach_k |etadot_k|, over modes and their products
-/// Limits     as TouchWatch: speeds between a step's ends are at most `margin`
+/// Limits     as ContactStartObserver: speeds between a step's ends are at most
+/// `margin`
 ///            times those at its ends
 class TravelBound {
  public:

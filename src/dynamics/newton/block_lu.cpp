@@ -17,11 +17,11 @@ using Graph = std::vector<std::set<int>>;
 // and so on.
 // @returns for each pivot in order its row and its neighbours when removed.
 std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph,
-                                                        int first_early) {
+                                                        int first_preceding) {
   std::set<std::pair<std::size_t, int>> by_degree;
   const auto rank = [&](int i) {
     const std::size_t degree = graph[index(i)].size();
-    return std::pair(i < first_early ? graph.size() + degree : degree, i);
+    return std::pair(i < first_preceding ? graph.size() + degree : degree, i);
   };
   for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
     by_degree.insert(rank(i));
@@ -48,7 +48,7 @@ std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph,
 }  // namespace
 
 BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges,
-                 int first_early)
+                 int first_preceding)
     : index_(index(size)) {
   std::vector<std::map<int, int>> found(index(size));
   int count = 0;
@@ -65,7 +65,7 @@ BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges,
   }
   // Diagonal blocks are the first, in the order of rows.
   for (int i = 0; i < size; ++i) find_or_add(i, i);
-  for (auto& [row, neighbours] : eliminate(graph, first_early)) {
+  for (auto& [row, neighbours] : eliminate(graph, first_preceding)) {
     Pivot pivot{.row = row,
                 .rows = neighbours,
                 .lower = {},

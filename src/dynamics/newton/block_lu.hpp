@@ -21,9 +21,9 @@ class BlockLu {
  public:
   BlockLu() = default;
   /// `edges` join different blocks, in any order, repeats allowed.
-  /// Rows from `first_early` on are eliminated before all others.
+  /// Rows from `first_preceding` on are eliminated before all others.
   BlockLu(int size, const std::vector<std::pair<int, int>>& edges,
-          int first_early);
+          int first_preceding);
   BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
       : BlockLu(size, edges, size) {}
 

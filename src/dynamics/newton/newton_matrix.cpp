@@ -132,8 +132,9 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   if (!attachment.nodal) {
     calc_modal_rows(model, terms, end);
-    if (is_kept(end)) {
-      if (plan_.kept[index(plan_.kept_of_body[index(end.body)])].is_early) {
+    if (is_retained(end)) {
+      if (plan_.retained[index(plan_.retained_of_body[index(end.body)])]
+              .precedes_links) {
         bodies_[index(end.body)].solve_rows(end.G, end.Zt);
         end.compliance.noalias() = end.G.lazyProduct(end.Zt.transpose());
       }
@@ -167,7 +168,7 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
                             const Coefficients& c) {
   plan_.lu.set_zero();
   for (std::size_t b = 0; b < ends_of_body_.size(); ++b) {
-    if (plan_.kept_of_body[b] >= 0) continue;
+    if (plan_.retained_of_body[b] >= 0) continue;
     const std::vector<int>& ends = ends_of_body_[b];
     for (const int i : ends) {
       for (const int j : ends) {
@@ -180,8 +181,8 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
       }
     }
   }
-  for (const KeptBody& kept : plan_.kept) {
-    if (kept.is_early) add_compliances(kept);
+  for (const RetainedUnknowns& retained : plan_.retained) {
+    if (retained.precedes_links) add_compliances(retained);
   }
   // Rows become T (I + K A), T a rotation scaled to the size of each row.
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -196,7 +197,8 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
     rows_[i] = scale.asDiagonal() * turn;
     scaled_stiffness_[i] = scale.asDiagonal() * K;
   }
-  for (const KeptBody& kept : plan_.kept) assemble_kept(kept);
+  for (const RetainedUnknowns& retained : plan_.retained)
+    assemble_retained(retained);
   pairs_.add(model, terms, end_terms, c.velocity, plan_);
   plan_.transports.update([&](int body) { return find_pose(terms, body); },
                           [&](int body) { return find_pose(end_terms, body); });
@@ -216,28 +218,28 @@ Pose NewtonMatrix::find_pose(const SystemTerms& terms, int body) const {
 }
 
 // Its share of A, which is known only once it is eliminated.
-void NewtonMatrix::add_compliances(const KeptBody& kept) {
-  for (const int e : ends_of_body_[index(kept.body)]) {
+void NewtonMatrix::add_compliances(const RetainedUnknowns& retained) {
+  for (const int e : ends_of_body_[index(retained.body)]) {
     const End& end = ends_[index(e)];
     compliances_[index(end.link)] += end.compliance;
   }
 }
 
 // Its equation, and its columns in the links' rows, without K yet.
-void NewtonMatrix::assemble_kept(const KeptBody& kept) {
-  for (int i = 0; i < kept.blocks; ++i) {
-    for (int j = 0; j < kept.blocks; ++j) {
-      plan_.lu.block(kept.first + i, kept.first + j) =
-          bodies_[index(kept.body)].block(i, j);
+void NewtonMatrix::assemble_retained(const RetainedUnknowns& retained) {
+  for (int i = 0; i < retained.blocks; ++i) {
+    for (int j = 0; j < retained.blocks; ++j) {
+      plan_.lu.block(retained.first + i, retained.first + j) =
+          bodies_[index(retained.body)].block(i, j);
     }
-    for (const int e : ends_of_body_[index(kept.body)]) {
+    for (const int e : ends_of_body_[index(retained.body)]) {
       const End& end = ends_[index(e)];
       const Eigen::Index first = Eigen::Index{6} * i;
       const Eigen::Index count =
           std::min<Eigen::Index>(6, end.G.cols() - first);
-      plan_.lu.block(end.link, kept.first + i).leftCols(count) +=
+      plan_.lu.block(end.link, retained.first + i).leftCols(count) +=
           end.G.middleCols(first, count);
-      plan_.lu.block(kept.first + i, end.link).topRows(count) -=
+      plan_.lu.block(retained.first + i, end.link).topRows(count) -=
           end.Zt.middleCols(first, count).transpose();
     }
   }
@@ -278,12 +280,14 @@ std::string NewtonMatrix::describe_singular(const SystemModel& model,
     return name(link) + ": its stiffness or damping is no longer finite";
   }
   if (index(row) >= rows_.size()) {
-    const auto kept = std::find_if(
-        plan_.kept.rbegin(), plan_.kept.rend(),
-        [row](const KeptBody& candidate) { return candidate.first <= row; });
+    const auto retained =
+        std::find_if(plan_.retained.rbegin(), plan_.retained.rend(),
+                     [row](const RetainedUnknowns& candidate) {
+                       return candidate.first <= row;
+                     });
     return fmt::format(
         "body '{}': the matrix of its inertia, couplers and pairs is singular",
-        model.bodies[index(kept->body)].name);
+        model.bodies[index(retained->body)].name);
   }
   return name(index(row)) +
          ": the matrix of its stiffness and of the bodies' compliance is "
@@ -343,7 +347,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   ++solves_;
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (plan_.kept_of_body[b] >= 0) continue;
+    if (plan_.retained_of_body[b] >= 0) continue;
     bodies_[b].solve(increments.data() + model.bodies[b].row);
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
@@ -355,7 +359,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   increments = -increments;
   for (Vector6& x : unknowns_) x.setZero();
   for (const End& end : ends_) {
-    if (is_kept(end)) continue;
+    if (is_retained(end)) continue;
     const double* x = increments.data() + end.row;
     Vector6& w = unknowns_[index(end.link)];
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w -= end.G.col(k) * x[k];
@@ -366,10 +370,10 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
     unknowns_[i] = right;
   }
   const auto for_kept = [&](const auto& visit) {
-    for (const KeptBody& kept : plan_.kept) {
-      double* x = increments.data() + model.bodies[index(kept.body)].row;
-      for (int k = 0; k < kept.size; ++k) {
-        visit(unknowns_[index(kept.first + k / 6)][k % 6], x[k]);
+    for (const RetainedUnknowns& retained : plan_.retained) {
+      double* x = increments.data() + model.bodies[index(retained.body)].row;
+      for (int k = 0; k < retained.size; ++k) {
+        visit(unknowns_[index(retained.first + k / 6)][k % 6], x[k]);
       }
     }
   };
@@ -380,7 +384,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   for_kept([](double& unknown, double& x) { x = unknown; });
   std::copy_n(unknowns_.begin(), wrenches_.size(), wrenches_.begin());
   for (const End& end : ends_) {
-    if (is_kept(end)) continue;
+    if (is_retained(end)) continue;
     double* x = increments.data() + end.row;
     const Vector6& w = wrenches_[index(end.link)];
     for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {

@@ -30,14 +30,14 @@ namespace limber::dynamics {
 ///            multipliers, so that any stiffness is admissible: the huge wrench
 ///            of a law at an unconverged configuration never acts. A body with
 ///            so many couplers that their dense block would be larger than the
-///            body's, a hub, is not eliminated: its increments are additional
-///            unknowns, with K_c G_cb x_b in the couplers' rows and its own
-///            equation as a row; those of a hub that shares couplers with
-///            another are relative to it (HubTransports). So are, before all
-///            couplers, bodies of pairs that have points: their tangent
-///            (PairTangents) joins both bodies' blocks. A transmission is a
-///            coupler with any number of ends and one unknown, the first of
-///            six; its other five rows are the identity.
+///            body's, a retained body, is not eliminated: its increments are
+///            additional unknowns, with K_c G_cb x_b in the couplers' rows and
+///            its own equation as a row; those of a retained body that shares
+///            couplers with another are relative to it (RetainedTransports). So
+///            are, before all couplers, bodies of pairs that have points: their
+///            tangent (PairTangents) joins both bodies' blocks. A transmission
+///            is a coupler with any number of ends and one unknown, the first
+///            of six; its other five rows are the identity.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
 /// Limits     neglects what ResidualDerivative adds: geometric stiffness of
 ///            couplers and loads, and derivatives of inertial forces by modes
@@ -114,9 +114,10 @@ class NewtonMatrix {
     bool is_M = true;
     Eigen::Index row = 0;  // the body's first
     Matrix6X G;            // 6 x (6 + m), or 6 x 3N
-    Matrix6X Zt{};         // (D^-1 G')'; of a kept body G at the acting wrench
-    Matrix6X Zt_B{};       // of an unreduced body, both in the body frame
-    Matrix6 compliance = Matrix6::Zero();  // G D^-1 G' of an early body, about
+    Matrix6X Zt{};    // (D^-1 G')'; of a retained body G at the acting wrench
+    Matrix6X Zt_B{};  // of an unreduced body, both in the body frame
+    Matrix6 compliance =
+        Matrix6::Zero();  // G D^-1 G' of a body that precedes the links, about
   };
 
   void add_end(const SystemModel& model, int link, CouplerIndex coupler,
@@ -134,14 +135,14 @@ class NewtonMatrix {
   void calc_modal_rows(const SystemModel& model, const SystemTerms& terms,
                        End& end) const;
   void finish_graph(const SystemModel& model);
-  [[nodiscard]] bool is_kept(const End& end) const {
-    return plan_.kept_of_body[static_cast<std::size_t>(end.body)] >= 0;
+  [[nodiscard]] bool is_retained(const End& end) const {
+    return plan_.retained_of_body[static_cast<std::size_t>(end.body)] >= 0;
   }
   void assemble(const SystemModel& model, const SystemTerms& terms,
                 const SystemTerms& end_terms, const Coefficients& c);
   [[nodiscard]] Pose find_pose(const SystemTerms& terms, int body) const;
-  void add_compliances(const KeptBody& kept);
-  void assemble_kept(const KeptBody& kept);
+  void add_compliances(const RetainedUnknowns& retained);
+  void assemble_retained(const RetainedUnknowns& retained);
   [[nodiscard]] std::string describe_singular(const SystemModel& model,
                                               const SystemTerms& terms,
                                               int row) const;
@@ -158,8 +159,9 @@ class NewtonMatrix {
   LinkGraph graph_;
   LuPlan plan_;
   PairTangents pairs_;
-  std::vector<Matrix6> compliances_;  // of links by early bodies
-  std::vector<Vector6> unknowns_;     // of plan_
+  std::vector<Matrix6>
+      compliances_;                // of links by bodies that precede the links
+  std::vector<Vector6> unknowns_;  // of plan_
   long solves_ = 0;
 };
 

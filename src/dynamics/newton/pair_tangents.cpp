@@ -92,9 +92,10 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
   const BodyIndex b = is_A ? pair.body_A : pair.body_B;
   columns.blocks = 0;
   if (b == kWorld || model.bodies[index(b)].full >= 0) return;
-  const KeptBody& kept = plan.kept[index(plan.kept_of_body[index(b)])];
-  columns.first = kept.first;
-  columns.blocks = kept.blocks;
+  const RetainedUnknowns& retained =
+      plan.retained[index(plan.retained_of_body[index(b)])];
+  columns.first = retained.first;
+  columns.blocks = retained.blocks;
   const BodyModel& body = model.bodies[index(b)];
   const double sign = is_A ? -1.0 : 1.0;
   const double* acting_eta = terms.pairs.bodies[index(b)].eta;
@@ -102,7 +103,7 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
   Eigen::Index row = 0;
   for (const joints::PairPoint& point : response.points()) {
     const auto rows = [&](MatrixX& all) {
-      return all.block(row, 0, 3, 6 * kept.blocks);
+      return all.block(row, 0, 3, 6 * retained.blocks);
     };
     const joints::PairPlace& place = is_A ? point.on_A : point.on_B;
     fill_rows(body, terms.bodies[index(b)].R_WB, acting_eta, place,

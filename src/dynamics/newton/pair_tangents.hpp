@@ -28,7 +28,7 @@ class PairTangents {
   /// Pairs that have points.
   [[nodiscard]] std::vector<BodyPair> active(const SystemModel& model) const;
 
-  /// Adds to the blocks of kept bodies. @param velocity per increment [1/s]
+  /// Adds to the blocks of retained bodies. @param velocity per increment [1/s]
   /// @param end_terms as NewtonMatrix::factor's, or `terms`
   void add(const SystemModel& model, const SystemTerms& terms,
            const SystemTerms& end_terms, double velocity, LuPlan& plan);

@@ -89,7 +89,7 @@ void ControllerSampling::write(const ControllerModel& controller,
   for (std::size_t i = 0; i < controller.writes.size(); ++i) {
     const int input = controller.writes[i];
     InputState& line = state.inputs[index(input)];
-    const Instant now{state.t, Side::left, state.inputs};
+    const EvaluationTime now{state.t, Side::left, state.inputs};
     const InputValue before = find_input(now, input);
     const double to = written_[i];
     const bool is_held = model_.inputs[index(input)].hold == InputHold::held;

@@ -35,7 +35,7 @@ constexpr double kVelocityNoise = 8.0 * std::numeric_limits<double>::epsilon();
 double find_target_rate(const Transmission& transmission,
                         const joints::ScalarMotion& motion,
                         const joints::CouplerMemory& memory,
-                        const Instant& now) {
+                        const EvaluationTime& now) {
   joints::TargetRate sum;
   std::size_t first = 0;
   for (const joints::ScalarLaw& law : transmission.laws) {
@@ -157,7 +157,7 @@ class DamperFilter {
 
   // Forces of dampers at the state's velocities.
   void push_by_velocities(const SystemState& state) {
-    const Instant now = now_of(state);
+    const EvaluationTime now = now_of(state);
     const std::size_t couplers = model_.couplers.size();
     for (std::size_t c = 0; c < couplers; ++c) {
       const CouplerTerms& t = terms_.couplers[c];

@@ -40,7 +40,7 @@ EventStepper::EventStepper(const SystemModel& model,
     : model_(model),
       integrator_(make_integrator(model, settings)),
       terms_(make_terms(model)),
-      watch_(model),
+      observer_(model),
       touches_(model),
       impacts_(model, settings.impact_steps / refinement,
                settings.tolerance > 0.0 ? kUnlimited : kMostParts),
@@ -61,19 +61,19 @@ EventStepper::EventStepper(const SystemModel& model,
     }
   }
   keeps_before_ =
-      settings.tolerance > 0.0 || !watch_.is_empty() || !touches_.is_empty();
+      settings.tolerance > 0.0 || !observer_.is_empty() || !touches_.is_empty();
   conserves_impacts_ = conserves_impacts(model, settings);
   is_implicit_ = traits_of(settings.integrator).is_implicit;
 }
 
 std::optional<DamperImpulse> EventStepper::start(SystemState& state, double h) {
-  watch_.start(state, events_);
+  observer_.start(state, events_);
   std::optional<DamperImpulse> impulse;
   if (is_implicit_) impulse = apply_damper_impulse(model_, h, state);
   if (impulse) {
     totals_.dissipated += impulse->dissipated;
     totals_.load_work += impulse->work;
-    watch_.accept(state);
+    observer_.accept(state);
   }
   touches_.start(state, events_);
   integrator_->start(state, h);
@@ -100,12 +100,13 @@ void EventStepper::add_between_steps(const EnergyFlows& flows) {
 }
 
 UnresolvedMotion EventStepper::choose_motion(
-    double h, const TouchWatch::Impact& impact) const {
+    double h, const ContactStartObserver::Impact& impact) const {
   const bool rests = impacts_.rests_stiffly(h);
   if (conserves_impacts_ && impacts_.is_struck() && !rests) {
     return UnresolvedMotion::conserved;
   }
-  if (impact.steps < TouchWatch::kFewestSteps) return UnresolvedMotion::ended;
+  if (impact.steps < ContactStartObserver::kFewestSteps)
+    return UnresolvedMotion::ended;
   return rests ? UnresolvedMotion::calmed : UnresolvedMotion::kept;
 }
 
@@ -114,10 +115,10 @@ UnresolvedMotion EventStepper::choose_motion(
 // resolved one does, the step fails; so does a step longer than an impact in an
 // ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
-  TouchWatch::Impact impact = touches_.find_impact(h, state.t);
+  ContactStartObserver::Impact impact = touches_.find_impact(h, state.t);
   const UnresolvedMotion motion = choose_motion(h, impact);
   const bool damps = integrator_->damp(motion);
-  const bool is_impact = impact.steps < TouchWatch::kSureSteps;
+  const bool is_impact = impact.steps < ContactStartObserver::kSureSteps;
   if (!is_impact) impact = touches_.find_touch_in(h);
   if (motion == UnresolvedMotion::conserved ||
       (!is_impact && !(impact.steps < 1.0))) {
@@ -211,23 +212,24 @@ void EventStepper::take_back(SystemState& state) {
   integrator_->undo(state);
 }
 
-void EventStepper::pass(const EventWatch::Crossing& crossing,
+void EventStepper::pass(const EventObserver::Crossing& crossing,
                         SystemState& state, double h) {
-  const EventWatch::Change change = watch_.pass(crossing.index, state, events_);
+  const EventObserver::Change change =
+      observer_.pass(crossing.index, state, events_);
   if (change.coupler >= 0) {
     totals_.dissipated += change.energy_lost;
     flows_.dissipated[EnergyRows(model_).couplers + change.coupler] +=
         change.energy_lost;
   }
   if (change.has_jump) integrator_->start(state, h);
-  watch_.accept(state);
+  observer_.accept(state);
 }
 
 void EventStepper::pass_all_at_end(SystemState& state, double h) {
-  while (const auto crossing = watch_.find_first(state, h)) {
+  while (const auto crossing = observer_.find_first(state, h)) {
     pass(*crossing, state, h);
   }
-  watch_.accept();
+  observer_.accept();
   touches_.pass_all(state, events_);
 }
 
@@ -247,11 +249,11 @@ bool EventStepper::advance_to(double share, SystemState& state) {
 
 void EventStepper::settle(SystemState& state, double nominal_h) {
   impacts_.accept(h_);
-  if (watch_.is_empty() && touches_.is_empty() && !ends_at_limits_) {
+  if (observer_.is_empty() && touches_.is_empty() && !ends_at_limits_) {
     add_last();
     return;
   }
-  const auto crossing = watch_.find_first(state, h_);
+  const auto crossing = observer_.find_first(state, h_);
   const auto touch = touches_.find_first(before_, state);
   const double limit =
       ends_at_limits_ ? limits_.find_first(before_, state).value_or(1.0) : 1.0;
@@ -276,7 +278,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
     if (crossing && crossing->share == share) {
       pass(*crossing, state, nominal_h);
     } else {
-      watch_.accept(state);
+      observer_.accept(state);
     }
     touches_.accept(before_, state);
   }
@@ -332,7 +334,7 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
 // beginning: shorter ones improve it, until one ends there. A step that ends
 // before the contact is accepted, and the next one continues.
 // @returns the number of its repeats
-int EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
+int EventStepper::settle_touch(const ContactStartObserver::Crossing& crossing,
                                SystemState& state, double nominal_h) {
   double share = crossing.share;
   int repeats = 0;
@@ -352,14 +354,14 @@ int EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
   check_leave(crossing.index, state);
   add_last();
   if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
-  watch_.accept(state);
+  observer_.accept(state);
   touches_.accept(before_, state);
   return repeats;
 }
 
 void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   integrator_->exchange_memory(archive, state);
-  watch_.exchange_memory(archive);
+  observer_.exchange_memory(archive);
   touches_.exchange_memory(archive);
   impacts_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,

@@ -8,10 +8,10 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
-#include "limber/dynamics/monitors/event_watch.hpp"
+#include "limber/dynamics/monitors/contact_start_observer.hpp"
+#include "limber/dynamics/monitors/event_observer.hpp"
 #include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
-#include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/damper_impulse.hpp"
 
 namespace limber::dynamics {
@@ -76,7 +76,7 @@ class EventStepper {
   /// The pair whose impacts shorten steps.
   [[nodiscard]] std::size_t impact_pair() const { return impacts_.fastest(); }
   /// Which pairs touch.
-  [[nodiscard]] TouchWatch& touches() { return touches_; }
+  [[nodiscard]] ContactStartObserver& touches() { return touches_; }
 
   /// Approximately those of the last step's end, before its events.
   [[nodiscard]] const SystemTerms& terms() const {
@@ -103,27 +103,28 @@ class EventStepper {
   void advance(SystemState& state, double h, double end);
   std::optional<double> find_other_length(const SystemState& state);
   [[nodiscard]] UnresolvedMotion choose_motion(
-      double h, const TouchWatch::Impact& impact) const;
+      double h, const ContactStartObserver::Impact& impact) const;
   StepResult take_step(SystemState& state, double h, double end);
   [[nodiscard]] double find_touch_energy(std::size_t pair,
                                          const SystemState& state) const;
-  void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
+  void pass(const EventObserver::Crossing& crossing, SystemState& state,
+            double h);
   void pass_all_at_end(SystemState& state, double h);
   // @throws NumericalError if a touch adds energy, or a leave is not genuine;
   // the step is reverted.
   void check_deep_touch(std::size_t index, SystemState& state);
   void check_leave(std::size_t index, SystemState& state);
   void check_missed_touch(std::size_t index, SystemState& state);
-  int settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
-                   double nominal_h);
+  int settle_touch(const ContactStartObserver::Crossing& crossing,
+                   SystemState& state, double nominal_h);
   bool advance_to(double share, SystemState& state);
   void add_last();
 
   const SystemModel& model_;
   std::unique_ptr<Integrator> integrator_;
   SystemTerms terms_;  // of energies
-  EventWatch watch_;
-  TouchWatch touches_;
+  EventObserver observer_;
+  ContactStartObserver touches_;
   ImpactSteps impacts_;
   LimitCrossing limits_;
   bool ends_at_limits_ = false;  // with a tolerance

@@ -15,7 +15,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
-#include "limber/dynamics/monitors/hold_watch.hpp"
+#include "limber/dynamics/monitors/deflection_observer.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 
@@ -52,9 +52,9 @@ std::string describe_overpowered(const SystemModel& model,
                                  const SystemState& state) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
-  HoldWatch watch(model);
-  watch.include(state, terms);
-  return watch.find_overpowered().value_or("");
+  DeflectionObserver observer(model);
+  observer.include(state, terms);
+  return observer.find_overpowered().value_or("");
 }
 
 std::string describe_turn(const SystemModel& model, const SystemState& state,

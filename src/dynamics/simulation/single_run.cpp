@@ -53,9 +53,9 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
 void pass_time(const SystemModel& model, SystemState& state,
                const std::vector<double>& times, const Job& job,
                const TimeLoop::Visit& visit) {
-  PeakWatch peaks(model, job.followed,
-                  choose_envelope_edges(state.t, job.settings.output_times,
-                                        job.settings.end_time));
+  PeakObserver peaks(model, job.followed,
+                     choose_envelope_edges(state.t, job.settings.output_times,
+                                           job.settings.end_time));
   SystemState now = state;
   peaks.start(now);
   for (const Breakpoint& mark :
@@ -142,10 +142,10 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
     join(now);
     job.followed.evaluate(seen, values);
   };
-  if (followed.spectator) {
-    followed.spectator->include = [&](const SystemState& now) {
+  if (followed.motion_observer) {
+    followed.motion_observer->include = [&](const SystemState& now) {
       join(now);
-      job.followed.spectator->include(seen);
+      job.followed.motion_observer->include(seen);
     };
   }
   const TimeLoop::Check check = [&](const SystemState& now) {

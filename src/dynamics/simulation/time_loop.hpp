@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "limber/dynamics/control/saturation_observer.hpp"
-#include "limber/dynamics/monitors/contact_log.hpp"
-#include "limber/dynamics/monitors/energy_watch.hpp"
-#include "limber/dynamics/monitors/peak_watch.hpp"
-#include "limber/dynamics/monitors/step_audit.hpp"
+#include "limber/dynamics/monitors/energy_growth_observer.hpp"
+#include "limber/dynamics/monitors/impact_observer.hpp"
+#include "limber/dynamics/monitors/peak_observer.hpp"
+#include "limber/dynamics/monitors/step_observer.hpp"
 #include "limber/dynamics/monitors/step_record.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
@@ -154,9 +154,9 @@ class TimeLoop {
   ControllerSampling sampling_;
   SaturationObserver saturation_;
   StepControl control_;
-  PeakWatch peaks_;
-  StepAudit audit_;
-  ContactLog contacts_;
+  PeakObserver peaks_;
+  StepObserver step_observer_;
+  ImpactObserver contacts_;
   Check check_;
   WorkBudget budget_;
   SystemTerms terms_;  // at the start

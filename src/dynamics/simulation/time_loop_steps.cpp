@@ -188,7 +188,7 @@ void TimeLoop::time_contact(const SystemState& state, long solves) {
     return;
   }
   const double each = timer_.lap();
-  const TouchWatch& touches = stepper_.touches();
+  const ContactStartObserver& touches = stepper_.touches();
   bool touching = false;
   for (std::size_t i = 0; i < touches.count(); ++i) {
     touching = touching || touches.is_touching(i);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/pair_memory.hpp"
 #include "limber/dynamics/system/system_model.hpp"
@@ -58,8 +58,8 @@ struct SystemState {
 };
 
 /// The state's time and inputs, as functions of time need them.
-[[nodiscard]] inline Instant now_of(const SystemState& state,
-                                    Side side = Side::right) {
+[[nodiscard]] inline EvaluationTime now_of(const SystemState& state,
+                                           Side side = Side::right) {
   return {state.t, side, state.inputs};
 }
 

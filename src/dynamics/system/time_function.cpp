@@ -150,10 +150,10 @@ void check(const TimeFunction& function) {
 }
 
 double evaluate(const TimeFunction& function, double t, Side side) {
-  return evaluate(function, Instant{t, side});
+  return evaluate(function, EvaluationTime{t, side});
 }
 
-double evaluate(const TimeFunction& function, const Instant& now) {
+double evaluate(const TimeFunction& function, const EvaluationTime& now) {
   const double t = now.t;
   const Side side = now.side;
   return std::visit(

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 
 namespace limber::dynamics {
 
@@ -77,7 +77,8 @@ void check(const TimeFunction& function);
 
 /// Value of the function [-].
 /// @throws ContractError for an input that `now` does not have.
-[[nodiscard]] double evaluate(const TimeFunction& function, const Instant& now);
+[[nodiscard]] double evaluate(const TimeFunction& function,
+                              const EvaluationTime& now);
 /// Value of a function that follows no input [-].
 /// @param t time [s]
 /// @param side limit at a discontinuity

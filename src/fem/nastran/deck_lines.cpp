@@ -123,10 +123,11 @@ class DeckReader {
 
   /// Drops the sections before the bulk data.
   void begin(const DeckLine& line) {
-    is_superelement_ = use_ == DeckUse::points && !begin_ &&
-                       has_word(line.text, "SUPER");
-    if (begin_ || (!is_superelement_ && has_word(line.text, "SUPER")) || has_word(line.text, "AUX") ||
-        has_word(line.text, "MODULE") || has_word(line.text, "ARBMODEL"))
+    is_superelement_ =
+        use_ == DeckUse::points && !begin_ && has_word(line.text, "SUPER");
+    if (begin_ || (!is_superelement_ && has_word(line.text, "SUPER")) ||
+        has_word(line.text, "AUX") || has_word(line.text, "MODULE") ||
+        has_word(line.text, "ARBMODEL"))
       throw InputError(fmt::format(
           "{}: '{}' begins a second bulk data section or that of a "
           "superelement. Expected one section; write each part to a file of "

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coordinates/scalar_motion.hpp"

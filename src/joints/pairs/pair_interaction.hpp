@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/records/manifest.hpp"
 #include "limber/common/types.hpp"
 #include "limber/joints/coordinates/discrete_gradient.hpp"
@@ -179,7 +179,7 @@ class PairInteraction {
   /// Fills `out`, which is clear.
   /// @param memory as the last accepted step left it
   /// @throws NumericalError, without the pair's name.
-  virtual void evaluate(const PairBodies& bodies, const Instant& now,
+  virtual void evaluate(const PairBodies& bodies, const EvaluationTime& now,
                         std::span<const double> memory,
                         PairResponse& out) const = 0;
 

@@ -71,7 +71,8 @@ void PointSprings::check(int modes_A, int modes_B) const {
   }
 }
 
-void PointSprings::evaluate(const PairBodies& bodies, const Instant& /*now*/,
+void PointSprings::evaluate(const PairBodies& bodies,
+                            const EvaluationTime& /*now*/,
                             std::span<const double> /*memory*/,
                             PairResponse& out) const {
   for (const Line& line : lines_) {

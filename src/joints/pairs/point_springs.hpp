@@ -35,7 +35,7 @@ class PointSprings final : public PairInteraction {
   void check(int modes_A, int modes_B) const override;
   /// A line without force and stiffness is no point.
   /// @throws NumericalError as PointSpring::evaluate.
-  void evaluate(const PairBodies& bodies, const Instant& now,
+  void evaluate(const PairBodies& bodies, const EvaluationTime& now,
                 std::span<const double> memory,
                 PairResponse& out) const override;
   void evaluate_over_step(const PairStep& step, std::span<const double> memory,

@@ -90,7 +90,7 @@ class Touching {
   /// Resets the memory where both leave each other: the next touch is new.
   virtual void end_touch(std::span<double> memory) const = 0;
   [[nodiscard]] virtual TouchReading read(const PairBodies& bodies,
-                                          const Instant& now,
+                                          const EvaluationTime& now,
                                           std::span<const double> memory,
                                           PairResponse& scratch) const = 0;
 };

@@ -66,7 +66,7 @@ Drive::Drive(const Parameters& parameters) : parameters_(parameters) {
 }
 
 // Command of the signal; inputs are clipped to the speed limit here.
-SignalValue Drive::find_command(const Instant& now) const {
+SignalValue Drive::find_command(const EvaluationTime& now) const {
   const Parameters& p = parameters_;
   SignalValue command = joints::evaluate(p.signal, now);
   if (p.mode == DriveMode::velocity &&
@@ -104,7 +104,8 @@ ScalarResponse Drive::push(const ScalarMotion& motion, double effort) const {
   return response;
 }
 
-ScalarResponse Drive::evaluate(const ScalarMotion& motion, const Instant& now,
+ScalarResponse Drive::evaluate(const ScalarMotion& motion,
+                               const EvaluationTime& now,
                                const SwitchModes& /*modes*/) const {
   const Parameters& p = parameters_;
   const SignalValue command = find_command(now);
@@ -146,7 +147,7 @@ std::vector<int> Drive::find_inputs() const {
   return joints::find_inputs(parameters_.signal);
 }
 
-double Drive::find_target_rate(const Instant& now) const {
+double Drive::find_target_rate(const EvaluationTime& now) const {
   const SignalValue command = find_command(now);
   switch (parameters_.mode) {
     case DriveMode::position:
@@ -159,7 +160,8 @@ double Drive::find_target_rate(const Instant& now) const {
   return 0.0;
 }
 
-double Drive::find_load(const ScalarMotion& motion, const Instant& now) const {
+double Drive::find_load(const ScalarMotion& motion,
+                        const EvaluationTime& now) const {
   const Parameters& p = parameters_;
   if (p.mode == DriveMode::effort) return 0.0;
   const SignalValue command = find_command(now);
@@ -171,7 +173,7 @@ double Drive::find_load(const ScalarMotion& motion, const Instant& now) const {
 }
 
 std::optional<Supply> Drive::find_supply(const ScalarMotion& motion,
-                                         const Instant& now) const {
+                                         const EvaluationTime& now) const {
   const Parameters& p = parameters_;
   const ScalarResponse response = evaluate(motion, now);
   const SignalValue command = find_command(now);

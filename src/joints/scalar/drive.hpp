@@ -54,7 +54,7 @@ class Drive : public WithoutScalarSwitches, public WithoutBounds {
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
-                                        const Instant& now,
+                                        const EvaluationTime& now,
                                         const SwitchModes& modes = {}) const;
   /// The response at the mean; the remainder of the energy balance counts as
   /// supplied.
@@ -64,15 +64,15 @@ class Drive : public WithoutScalarSwitches, public WithoutBounds {
 
   [[nodiscard]] std::vector<double> break_times() const;
   [[nodiscard]] std::vector<int> find_inputs() const;
-  [[nodiscard]] double find_target_rate(const Instant& now) const;
+  [[nodiscard]] double find_target_rate(const EvaluationTime& now) const;
   [[nodiscard]] double max_effort() const { return parameters_.max_effort; }
   /// 0 for an effort drive, whose command respects the limit.
   [[nodiscard]] double find_load(const ScalarMotion& motion,
-                                 const Instant& now) const;
+                                 const EvaluationTime& now) const;
   /// Along the command: of a position drive its value, of a velocity drive its
   /// integral; of an effort drive along the coordinate.
-  [[nodiscard]] std::optional<Supply> find_supply(const ScalarMotion& motion,
-                                                  const Instant& now) const;
+  [[nodiscard]] std::optional<Supply> find_supply(
+      const ScalarMotion& motion, const EvaluationTime& now) const;
 
  private:
   // A value within the limits, and whether it was so before clipping.
@@ -80,7 +80,7 @@ class Drive : public WithoutScalarSwitches, public WithoutBounds {
     double value = 0.0;
     bool is_free = true;
   };
-  [[nodiscard]] SignalValue find_command(const Instant& now) const;
+  [[nodiscard]] SignalValue find_command(const EvaluationTime& now) const;
   [[nodiscard]] Clipped clip(double pull) const;
   [[nodiscard]] ScalarResponse push(const ScalarMotion& motion,
                                     double effort) const;

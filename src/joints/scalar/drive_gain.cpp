@@ -23,7 +23,7 @@ DriveGain find_effort_gain(const Drive::Parameters& p,
 }  // namespace
 
 DriveGain find_gain(const Drive& drive, const ScalarMotion& motion,
-                    const Instant& now) {
+                    const EvaluationTime& now) {
   const Drive::Parameters& p = drive.parameters();
   const SignalValue command = evaluate(p.signal, now);
   if (p.mode == DriveMode::effort) {

@@ -15,6 +15,6 @@ struct DriveGain {
 /// Both are zero at a limit: of effort, or of a velocity that follows an input.
 [[nodiscard]] DriveGain find_gain(const Drive& drive,
                                   const ScalarMotion& motion,
-                                  const Instant& now);
+                                  const EvaluationTime& now);
 
 }  // namespace limber::joints

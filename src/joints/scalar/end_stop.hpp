@@ -33,7 +33,7 @@ class EndStop : public WithoutCommand {
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
                                         const SwitchModes& modes = {}) const;
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
-                                        const Instant& /*now*/,
+                                        const EvaluationTime& /*now*/,
                                         const SwitchModes& modes) const {
     return evaluate(motion, modes);
   }

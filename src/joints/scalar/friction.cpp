@@ -27,7 +27,7 @@ Friction::Friction(const Parameters& parameters) : parameters_(parameters) {
 }
 
 ScalarResponse Friction::evaluate(const ScalarMotion& motion,
-                                  const Instant& /*now*/,
+                                  const EvaluationTime& /*now*/,
                                   const SwitchModes& /*modes*/) const {
   const Parameters& p = parameters_;
   const double v = motion.rate;

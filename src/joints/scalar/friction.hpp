@@ -27,7 +27,7 @@ class Friction : public WithoutScalarSwitches,
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
-                                        const Instant& now = {},
+                                        const EvaluationTime& now = {},
                                         const SwitchModes& modes = {}) const;
   [[nodiscard]] ScalarResponse evaluate_over_step(
       const CoordinateStep& coordinate, const StepTimes& times,

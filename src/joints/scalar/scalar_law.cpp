@@ -18,7 +18,7 @@ static_assert(check(static_cast<const ScalarLaw*>(nullptr)));
 }  // namespace
 
 ScalarResponse evaluate(const ScalarLaw& law, const ScalarMotion& motion,
-                        const Instant& now, const SwitchModes& modes) {
+                        const EvaluationTime& now, const SwitchModes& modes) {
   return std::visit(
       [&](const auto& own) { return own.evaluate(motion, now, modes); }, law);
 }
@@ -62,14 +62,14 @@ double max_effort(const ScalarLaw& law) {
 }
 
 double find_load(const ScalarLaw& law, const ScalarMotion& motion,
-                 const Instant& now) {
+                 const EvaluationTime& now) {
   return std::visit([&](const auto& own) { return own.find_load(motion, now); },
                     law);
 }
 
 std::optional<Supply> find_supply(const ScalarLaw& law,
                                   const ScalarMotion& motion,
-                                  const Instant& now) {
+                                  const EvaluationTime& now) {
   return std::visit(
       [&](const auto& own) { return own.find_supply(motion, now); }, law);
 }
@@ -81,7 +81,7 @@ std::optional<BeyondBound> find_beyond_bound(const ScalarLaw& law,
 }
 
 void TargetRate::add(const ScalarLaw& law, const ScalarMotion& motion,
-                     const Instant& now, const SwitchModes& modes) {
+                     const EvaluationTime& now, const SwitchModes& modes) {
   const double damping = evaluate(law, motion, now, modes).damping;
   damping_ += damping;
   push_ += damping *

@@ -33,7 +33,7 @@ constexpr auto fields_of(const JointElement*) {
 /// The law's response to a motion.
 [[nodiscard]] ScalarResponse evaluate(const ScalarLaw& law,
                                       const ScalarMotion& motion,
-                                      const Instant& now,
+                                      const EvaluationTime& now,
                                       const SwitchModes& modes = {});
 /// Response over a step that balances energies exactly
 /// (discrete_gradient.hpp).
@@ -60,13 +60,13 @@ constexpr auto fields_of(const JointElement*) {
 /// Ratio of the commanded effort, before clipping, to the limit; 0 for a law
 /// that is not commanded [-].
 [[nodiscard]] double find_load(const ScalarLaw& law, const ScalarMotion& motion,
-                               const Instant& now);
+                               const EvaluationTime& now);
 
 /// How a motor supplies power; nothing for a law without a command, or if the
 /// path of its command is not known.
 [[nodiscard]] std::optional<Supply> find_supply(const ScalarLaw& law,
                                                 const ScalarMotion& motion,
-                                                const Instant& now);
+                                                const EvaluationTime& now);
 
 /// The bound that the coordinate exceeds, if any.
 [[nodiscard]] std::optional<BeyondBound> find_beyond_bound(
@@ -76,8 +76,8 @@ constexpr auto fields_of(const JointElement*) {
 /// force together.
 class TargetRate {
  public:
-  void add(const ScalarLaw& law, const ScalarMotion& motion, const Instant& now,
-           const SwitchModes& modes);
+  void add(const ScalarLaw& law, const ScalarMotion& motion,
+           const EvaluationTime& now, const SwitchModes& modes);
   /// [m/s or rad/s]
   [[nodiscard]] double rate() const {
     return damping_ > 0.0 ? push_ / damping_ : 0.0;

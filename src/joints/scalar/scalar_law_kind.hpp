@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/records/fields.hpp"
 #include "limber/joints/coordinates/discrete_gradient.hpp"
 #include "limber/joints/coordinates/scalar_motion.hpp"
@@ -36,7 +36,7 @@ struct Supply {
 /// `evaluate_over_step` balances energies exactly (discrete_gradient.hpp).
 template <typename Law>
 concept ExertsScalarForce = requires(const Law& law, const ScalarMotion& motion,
-                                     const Instant& now,
+                                     const EvaluationTime& now,
                                      const SwitchModes& modes,
                                      const CoordinateStep& coordinate,
                                      const StepTimes& times) {
@@ -71,7 +71,7 @@ struct WithoutScalarSwitches {
 /// effort before clipping to it [-]; the supply, whose force times rate is
 /// ScalarResponse::supplied, if its place is known.
 template <typename Law>
-concept HasCommand = requires(const Law& law, const Instant& now,
+concept HasCommand = requires(const Law& law, const EvaluationTime& now,
                               const ScalarMotion& motion) {
   { law.break_times() } -> std::same_as<std::vector<double>>;
   { law.find_inputs() } -> std::same_as<std::vector<int>>;
@@ -83,18 +83,18 @@ concept HasCommand = requires(const Law& law, const Instant& now,
 struct WithoutCommand {
   [[nodiscard]] static std::vector<double> break_times() { return {}; }
   [[nodiscard]] static std::vector<int> find_inputs() { return {}; }
-  [[nodiscard]] static double find_target_rate(const Instant& /*now*/) {
+  [[nodiscard]] static double find_target_rate(const EvaluationTime& /*now*/) {
     return 0.0;
   }
   [[nodiscard]] static double max_effort() {
     return std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] static double find_load(const ScalarMotion& /*motion*/,
-                                        const Instant& /*now*/) {
+                                        const EvaluationTime& /*now*/) {
     return 0.0;
   }
   [[nodiscard]] static std::optional<Supply> find_supply(
-      const ScalarMotion& /*motion*/, const Instant& /*now*/) {
+      const ScalarMotion& /*motion*/, const EvaluationTime& /*now*/) {
     return {};
   }
 };

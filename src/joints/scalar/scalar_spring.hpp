@@ -30,7 +30,7 @@ class ScalarSpring : public WithoutCommand, public WithoutBounds {
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
                                         const SwitchModes& modes = {}) const;
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
-                                        const Instant& /*now*/,
+                                        const EvaluationTime& /*now*/,
                                         const SwitchModes& modes) const {
     return evaluate(motion, modes);
   }

@@ -23,7 +23,7 @@ double find_roundoff(double time, double delay) {
 }
 
 // Whether `now` is after `time`, delayed; at that time, its side decides.
-bool is_past(const Instant& now, double time, double delay) {
+bool is_past(const EvaluationTime& now, double time, double delay) {
   const double late = now.t - (time + delay);
   const bool is_there = std::abs(late) <= find_roundoff(time, delay);
   return is_there ? now.side == Side::right : late > 0.0;
@@ -50,12 +50,12 @@ SignalValue find_progress(const RampSignal& ramp, double s) {
 }
 
 // Shifts all times of a signal by `delay` [s].
-SignalValue evaluate_base(const ConstantSignal& signal, const Instant& /*now*/,
-                          double /*delay*/) {
+SignalValue evaluate_base(const ConstantSignal& signal,
+                          const EvaluationTime& /*now*/, double /*delay*/) {
   return {signal.value, 0.0};
 }
 
-SignalValue evaluate_base(const RampSignal& ramp, const Instant& now,
+SignalValue evaluate_base(const RampSignal& ramp, const EvaluationTime& now,
                           double delay) {
   if (!is_past(now, ramp.start, delay)) return {ramp.from, 0.0};
   if (is_past(now, ramp.start + ramp.duration, delay)) return {ramp.to, 0.0};
@@ -66,7 +66,7 @@ SignalValue evaluate_base(const RampSignal& ramp, const Instant& now,
           height * progress.rate / ramp.duration};
 }
 
-SignalValue evaluate_base(const TableSignal& table, const Instant& now,
+SignalValue evaluate_base(const TableSignal& table, const EvaluationTime& now,
                           double delay) {
   const auto& times = table.times;
   const auto next = std::partition_point(
@@ -80,7 +80,7 @@ SignalValue evaluate_base(const TableSignal& table, const Instant& now,
   return {table.values[i - 1] + slope * (now.t - delay - times[i - 1]), slope};
 }
 
-SignalValue evaluate_base(const SineSignal& sine, const Instant& now,
+SignalValue evaluate_base(const SineSignal& sine, const EvaluationTime& now,
                           double delay) {
   const double omega = 2.0 * kPi * sine.frequency;
   const bool runs = is_past(now, sine.start, delay);
@@ -91,7 +91,7 @@ SignalValue evaluate_base(const SineSignal& sine, const Instant& now,
 }
 
 // Shapers do not delay inputs: check().
-SignalValue evaluate_base(const InputSignal& signal, const Instant& now,
+SignalValue evaluate_base(const InputSignal& signal, const EvaluationTime& now,
                           double /*delay*/) {
   const InputValue input = find_input(now, signal.input);
   return {signal.factor * input.value, signal.factor * input.rate};
@@ -265,7 +265,7 @@ void check_base(const InputSignal& s) {
 
 }  // namespace
 
-SignalValue evaluate(const Signal& signal, const Instant& now) {
+SignalValue evaluate(const Signal& signal, const EvaluationTime& now) {
   SignalValue sum;
   for (const Impulse& impulse : signal.shaper) {
     const SignalValue part = std::visit(

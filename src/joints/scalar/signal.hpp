@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "limber/common/instant.hpp"
+#include "limber/common/evaluation_time.hpp"
 #include "limber/common/records/fields.hpp"
 
 /// Commands of drives: a value and its rate at every time, in the unit of the
@@ -79,7 +79,8 @@ struct SignalValue {
 /// Value and rate of a signal. At a time within round-off of a break,
 /// `now.side` selects the limit.
 /// @throws ContractError for an input that `now` does not have.
-[[nodiscard]] SignalValue evaluate(const Signal& signal, const Instant& now);
+[[nodiscard]] SignalValue evaluate(const Signal& signal,
+                                   const EvaluationTime& now);
 
 /// Integral of the value from a fixed time, in closed form: differences are the
 /// travel of a command of rates [unit of the command s]. Of an input, which is

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/analysis/level_survey.hpp"
+#include "limber/dynamics/analysis/level_observer.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::results {

@@ -55,7 +55,7 @@ std::string tell(const PlacedPair& placed, double depth,
   const std::vector<double> memory(pair.law->memory_size(), 0.0);
   joints::PairResponse scratch = dynamics::make_response(model, pair);
   const joints::TouchReading reading =
-      pair.law->touching()->read(bodies, Instant{}, memory, scratch);
+      pair.law->touching()->read(bodies, EvaluationTime{}, memory, scratch);
   return fmt::format(
       "contact '{}': both overlap by {:.3g} m at the start, which presses them "
       "apart with {:.4g} N and stores {:.3g} J",

@@ -13,7 +13,7 @@ int main() {
   weight.mobilizer = Mobilizer::free;
   mechanism.bodies = {weight};
   mechanism.gravity_W = {0.0, 0.0, -9.81};
-  mechanism.watched = {{0, {}}};
+  mechanism.observed = {{0, {}}};
   const SimbodyRun run =
       simulate(mechanism, {JointModel::ideal, 1e-10}, {{1.0, false, true}});
   const double z = run.snapshots.back().frames[0].p_WB.z();

@@ -10,7 +10,7 @@
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
-#include "limber/dynamics/monitors/touch_watch.hpp"
+#include "limber/dynamics/monitors/contact_start_observer.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
@@ -27,7 +27,8 @@ using dynamics::kWorld;
 constexpr double kFixed = std::numeric_limits<double>::infinity();
 constexpr SurfaceMaterial kSteel{2.1e11, 0.3};
 
-// Two touch as far before as both go in this part of a step (TouchWatch).
+// Two touch as far before as both go in this part of a step
+// (ContactStartObserver).
 constexpr double kEarly = 3e-4;
 
 /// A contact that counts what it is asked for.
@@ -46,7 +47,7 @@ class CountingPair final : public joints::PairInteraction,
   bool couples_points() const override { return pair_.couples_points(); }
   std::size_t memory_size() const override { return pair_.memory_size(); }
   void check(int a, int b) const override { pair_.check(a, b); }
-  void evaluate(const joints::PairBodies& bodies, const Instant& now,
+  void evaluate(const joints::PairBodies& bodies, const EvaluationTime& now,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override {
     ++evaluations;
@@ -92,7 +93,8 @@ class CountingPair final : public joints::PairInteraction,
     return pair_.begin_touch(bodies, t, memory, scratch);
   }
   joints::TouchReading read(const joints::PairBodies& bodies,
-                            const Instant& now, std::span<const double> memory,
+                            const EvaluationTime& now,
+                            std::span<const double> memory,
                             joints::PairResponse& scratch) const override {
     return pair_.read(bodies, now, memory, scratch);
   }
@@ -175,7 +177,7 @@ TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
     const dynamics::SystemModel model = builder.build();
     dynamics::SystemState state = dynamics::make_state(model);
     state.bodies[1].p_WB = {1.999 * size, 0.0, 0.0};
-    dynamics::TouchWatch touches(model);
+    dynamics::ContactStartObserver touches(model);
     std::vector<dynamics::Event> events;
     touches.start(state, events);
     EXPECT_TRUE(touches.is_touching(0));

@@ -44,8 +44,8 @@ struct CouplerCase {
 
 /// The drives of the cases move until then [s], and then rest where they exert
 /// no force at the joint's rest.
-inline constexpr Instant kMidway{0.7};
-inline constexpr Instant kAfterwards{10.0};
+inline constexpr EvaluationTime kMidway{0.7};
+inline constexpr EvaluationTime kAfterwards{10.0};
 
 /// Rotations to 3 rad and 2 m in the free directions, to 0.2 rad and 0.1 m in
 /// the others; speeds to 1.5.

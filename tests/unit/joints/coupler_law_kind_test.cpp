@@ -36,7 +36,7 @@ class WholeLaw : public WithoutSwitches,
   [[nodiscard]] static Nothing parameters() { return {}; }
   [[nodiscard]] static CouplerResponse evaluate(const RelativeMotion& /*at*/,
                                                 const CouplerMemory& /*memory*/,
-                                                const Instant& /*now*/) {
+                                                const EvaluationTime& /*now*/) {
     return {};
   }
   [[nodiscard]] static CouplerResponse evaluate_over_step(
@@ -87,7 +87,7 @@ class WholeScalarLaw : public WithoutScalarSwitches,
  public:
   [[nodiscard]] static Nothing parameters() { return {}; }
   [[nodiscard]] static ScalarResponse evaluate(const ScalarMotion& /*motion*/,
-                                               const Instant& /*now*/,
+                                               const EvaluationTime& /*now*/,
                                                const SwitchModes& /*modes*/) {
     return {};
   }

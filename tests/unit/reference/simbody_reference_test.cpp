@@ -24,7 +24,7 @@ Mechanism make_single(Mobilizer mobilizer, const Vector3& inertia) {
   body.inertia = inertia.asDiagonal();
   body.mobilizer = mobilizer;
   mechanism.bodies = {body};
-  mechanism.watched = {{0, {}}};
+  mechanism.observed = {{0, {}}};
   return mechanism;
 }
 
@@ -89,7 +89,7 @@ TEST(SimbodyReference, PendulumHasTheClosedFormPeriod) {
   mechanism.gravity_W = {9.81, 0, 0};
   mechanism.bodies[0].p_LBcm = {1, 0, 0};
   mechanism.bodies[0].position = {std::numbers::pi / 2};
-  mechanism.watched[0].X_LF.p = {1, 0, 0};
+  mechanism.observed[0].X_LF.p = {1, 0, 0};
   // 4 sqrt(L / g) K(sin 45 deg) with the compound pendulum's L = 1 + I / m.
   const double period = 2.367841948 * std::sqrt(1.0 + 1e-6 / 2.0);
   const SimbodyRun run =

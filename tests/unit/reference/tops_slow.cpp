@@ -40,7 +40,7 @@ Vector3 spin_by_simbody(double t) {
   body.mobilizer = Mobilizer::free;
   body.velocity = {0, 0, 0, 0.01, 1, 0};
   mechanism.bodies = {body};
-  mechanism.watched = {{0, {}}};
+  mechanism.observed = {{0, {}}};
   return simulate(mechanism, {JointModel::ideal, 1e-12}, {{t, false, true}})
       .snapshots.back()
       .frames[0]
@@ -97,7 +97,7 @@ std::vector<Snapshot> run_on_a_ball() {
   body.velocity = {w[0], w[1], w[2]};
   mechanism.bodies = {body};
   mechanism.gravity_W = {0, 0, -kGravity};
-  mechanism.watched = {{0, {}}};
+  mechanism.observed = {{0, {}}};
   std::vector<Breakpoint> marks;
   for (const double t : sample()) {
     if (t > 0.0) marks.push_back({t, false, true});

@@ -19,20 +19,20 @@ constexpr double kRoundoff = 1e-12;
 
 /// Peaks of the first of `bodies`, spun for a second at `Omega`.
 BodyPeaks spin(const SystemModel& model, const Vector3& w_B) {
-  LevelSurvey survey(model);
+  LevelObserver level_observer(model);
   SystemModel rigid = model;
   rigid.bodies[0].modes = 0;
   SystemState state = make_state(model);
   state.bodies[0].w_WB_B = w_B;
   for (int i = 0; i <= 10; ++i) {
     state.t = 0.1 * i;
-    survey.include(rigid, state);
+    level_observer.include(rigid, state);
   }
-  return survey.find_peaks().front();
+  return level_observer.find_peaks().front();
 }
 
 // Lambda^-1 J1^T (w w): four times as much at twice the speed.
-TEST(LevelSurvey, FindsInertialDisplacementInTheSquareOfTheSpeed) {
+TEST(LevelObserver, FindsInertialDisplacementInTheSquareOfTheSpeed) {
   const SystemModel model = make_uncoupled_chain(1);
   const BodyPeaks slow = spin(model, {0.1, 0.0, 0.2});
   const BodyPeaks fast = spin(model, {0.2, 0.0, 0.4});

@@ -339,7 +339,7 @@ TEST(StartWarnings, CompareAnExcessWithTheSizeOfWhatMoves) {
 
 // A spring of a drive that pulls 10 N/m x 1 m at the start and may give 5 N:
 // at its limit while x > 0.5.
-TEST(LimitWatch, TellsWhenAndWhereADriveReachesItsLargestEffort) {
+TEST(EffortLimitObserver, TellsWhenAndWhereADriveReachesItsLargestEffort) {
   SystemBuilder builder;
   const testing::Mass mass = testing::add_mass(builder, "slider", 1.0);
   joints::Drive::Parameters p;
@@ -369,7 +369,7 @@ TEST(LimitWatch, TellsWhenAndWhereADriveReachesItsLargestEffort) {
 
 // A shaft turns 1 kg at 0.2 m with 100 rad/s: some 2000 N on 1e5 N/m give 22
 // mm, a tenth of its arm; on 1e9 N/m nothing to speak of.
-TEST(HoldWatch, TellsOfAJointThatGivesWayWithTheStiffnessThatWouldDo) {
+TEST(DeflectionObserver, TellsOfAJointThatGivesWayWithTheStiffnessThatWouldDo) {
   for (const double stiffness : {1e5, 1e9}) {
     SystemBuilder builder;
     const Matrix3 J = 0.01 * Matrix3::Identity();

@@ -15,8 +15,8 @@
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/newton/hubs.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/newton/retained_bodies.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -157,14 +157,15 @@ TEST(CoupledModes, OfABodyWithManyCouplersMoveAsThoseThatElasticityLeaves) {
   const MatrixX basis = testing::make_basis(8, 6);
   std::vector<int> links(kCouplers);
   std::iota(links.begin(), links.end(), 0);
-  ASSERT_EQ(choose_hubs({.links = kCouplers,
-                         .links_of_body = {links},
-                         .blocks = {3},
-                         .sizes = {14},
-                         .moves = {true},
-                         .grounded = std::vector<bool>(kCouplers, true)})
-                .size(),
-            1U);
+  ASSERT_EQ(
+      choose_retained_bodies({.links = kCouplers,
+                              .links_of_body = {links},
+                              .blocks = {3},
+                              .sizes = {14},
+                              .moves = {true},
+                              .grounded = std::vector<bool>(kCouplers, true)})
+          .size(),
+      1U);
   for (const IntegratorKind kind :
        {IntegratorKind::generalized_alpha, IntegratorKind::energy_conserving}) {
     SimulationSettings settings;

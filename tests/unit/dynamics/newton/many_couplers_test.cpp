@@ -329,7 +329,7 @@ LinkGraph make_row(const std::vector<int>& counts) {
 
 /// (body, its parent's body or -1), as chosen.
 std::vector<std::pair<int, int>> find_hubs(const LinkGraph& graph) {
-  const std::vector<Hub> hubs = choose_hubs(graph);
+  const std::vector<Hub> hubs = choose_retained_bodies(graph);
   std::vector<std::pair<int, int>> bodies;
   for (const Hub& hub : hubs) {
     bodies.emplace_back(hub.body,
@@ -380,10 +380,10 @@ TEST(Hubs, HaveNoParentInABodyThatIsClamped) {
 TEST(Hubs, AreBodiesThatCostLessThanHalfOfTheirEliminatedLinks) {
   std::vector<int> links(10);
   std::iota(links.begin(), links.end(), 0);
-  EXPECT_THAT(choose_hubs(make_graph({links}, {4})), IsEmpty());
+  EXPECT_THAT(choose_retained_bodies(make_graph({links}, {4})), IsEmpty());
   links.push_back(10);
   EXPECT_THAT(find_hubs(make_graph({links}, {4})), ElementsAre(Pair(0, -1)));
-  EXPECT_THAT(choose_hubs(make_graph({links}, {5})), IsEmpty());
+  EXPECT_THAT(choose_retained_bodies(make_graph({links}, {5})), IsEmpty());
 }
 
 TEST(Hubs, NeedSpaceInProportionToTheLinksBetweenThem) {
@@ -395,7 +395,7 @@ TEST(Hubs, NeedSpaceInProportionToTheLinksBetweenThem) {
 }
 
 // The velocity of a point that moves with a turning frame.
-TEST(HubTransports, MoveABodyWithItsParent) {
+TEST(RetainedTransports, MoveABodyWithItsParent) {
   const Vector3 p(0.3, -0.7, 1.1);
   const Vector3 p_parent(-0.2, 0.5, 0.4);
   const Matrix3 R(Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 2.0) / 3.0));
@@ -406,7 +406,7 @@ TEST(HubTransports, MoveABodyWithItsParent) {
   Vector6 x;
   x << shift, turn;
   const Vector6 moved =
-      HubTransports::transport({R, p}, {R_parent, p_parent}) * x;
+      RetainedTransports::transport({R, p}, {R_parent, p_parent}) * x;
   constexpr double kStep = 1e-5;
   const auto place = [&](double by) {
     const Matrix3 turned(

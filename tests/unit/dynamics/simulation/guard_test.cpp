@@ -10,7 +10,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/monitors/energy_watch.hpp"
+#include "limber/dynamics/monitors/energy_growth_observer.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/simulation/work_budget.hpp"
@@ -358,56 +358,56 @@ TEST(Guard, TellsAStartFromWhichNothingMoves) {
               AllOf(HasSubstr("'blade'"), HasSubstr("t = 0 s")));
 }
 
-TEST(EnergyWatch, LooksAwayFromWhatLoadsSupplied) {
-  EnergyWatch watch(1.0, false);
-  EXPECT_FALSE(watch.is_blown_up(9.0));
-  watch.add(5.0);
-  EXPECT_FALSE(watch.is_blown_up(50.0));
-  watch.add(-5.0);
-  EXPECT_FALSE(watch.is_blown_up(100.0));
+TEST(EnergyGrowthObserver, LooksAwayFromWhatLoadsSupplied) {
+  EnergyGrowthObserver observer(1.0, false);
+  EXPECT_FALSE(observer.is_blown_up(9.0));
+  observer.add(5.0);
+  EXPECT_FALSE(observer.is_blown_up(50.0));
+  observer.add(-5.0);
+  EXPECT_FALSE(observer.is_blown_up(100.0));
 }
 
-TEST(EnergyWatch, SeesGrowthWithoutASourceAtTheSecondLook) {
-  EnergyWatch watch(1.0, false);
-  EXPECT_FALSE(watch.is_blown_up(20.0));
-  EXPECT_FALSE(watch.is_blown_up(19.0));  // it falls again
-  EXPECT_TRUE(watch.is_blown_up(30.0));
+TEST(EnergyGrowthObserver, SeesGrowthWithoutASourceAtTheSecondLook) {
+  EnergyGrowthObserver observer(1.0, false);
+  EXPECT_FALSE(observer.is_blown_up(20.0));
+  EXPECT_FALSE(observer.is_blown_up(19.0));  // it falls again
+  EXPECT_TRUE(observer.is_blown_up(30.0));
 }
 
-TEST(EnergyWatch, SeesWhatIsStillTooMuchAtTheEndThoughItFalls) {
-  EnergyWatch watch(1.0, false);
-  EXPECT_FALSE(watch.is_blown_up(200.0));
-  EXPECT_FALSE(watch.is_blown_up(199.0));
-  EXPECT_TRUE(watch.is_blown_up(198.0, true));
-  EnergyWatch calmed(1.0, false);
+TEST(EnergyGrowthObserver, SeesWhatIsStillTooMuchAtTheEndThoughItFalls) {
+  EnergyGrowthObserver observer(1.0, false);
+  EXPECT_FALSE(observer.is_blown_up(200.0));
+  EXPECT_FALSE(observer.is_blown_up(199.0));
+  EXPECT_TRUE(observer.is_blown_up(198.0, true));
+  EnergyGrowthObserver calmed(1.0, false);
   EXPECT_FALSE(calmed.is_blown_up(200.0));
   EXPECT_FALSE(calmed.is_blown_up(2.0, true));
   // A first step from rest, whose work is not yet counted.
-  EXPECT_FALSE(EnergyWatch(0.0, false).is_blown_up(5.0, true));
+  EXPECT_FALSE(EnergyGrowthObserver(0.0, false).is_blown_up(5.0, true));
 }
 
-TEST(EnergyWatch, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {
-  EXPECT_TRUE(EnergyWatch(1.0, false).is_blown_up(std::nan("")));
-  EXPECT_TRUE(EnergyWatch(1.0, false).is_blown_up(2000.0));
+TEST(EnergyGrowthObserver, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {
+  EXPECT_TRUE(EnergyGrowthObserver(1.0, false).is_blown_up(std::nan("")));
+  EXPECT_TRUE(EnergyGrowthObserver(1.0, false).is_blown_up(2000.0));
 }
 
-TEST(EnergyWatch, TakesNoiseForNothing) {
-  EnergyWatch watch(0.0, false);
-  EXPECT_FALSE(watch.is_blown_up(1e-15, false, 2e-15));
-  EXPECT_FALSE(watch.is_blown_up(1.5e-15, true, 2e-15));
-  EXPECT_FALSE(watch.is_blown_up(3e-15, false, 2e-15));
-  EXPECT_TRUE(watch.is_blown_up(4e-15, false, 2e-15));
+TEST(EnergyGrowthObserver, TakesNoiseForNothing) {
+  EnergyGrowthObserver observer(0.0, false);
+  EXPECT_FALSE(observer.is_blown_up(1e-15, false, 2e-15));
+  EXPECT_FALSE(observer.is_blown_up(1.5e-15, true, 2e-15));
+  EXPECT_FALSE(observer.is_blown_up(3e-15, false, 2e-15));
+  EXPECT_TRUE(observer.is_blown_up(4e-15, false, 2e-15));
 }
 
-TEST(EnergyWatch, WaitsForASecondLookWhereWorkLags) {
-  EnergyWatch watch(1e-24, true);
-  watch.add(0.0);
-  EXPECT_FALSE(watch.is_blown_up(1.0));
-  EXPECT_TRUE(watch.is_too_much(1.0));
-  watch.add(2.0);
-  EXPECT_FALSE(watch.is_blown_up(4.0));
-  EXPECT_FALSE(watch.is_too_much(4.0));
-  EnergyWatch grows(1e-24, true);
+TEST(EnergyGrowthObserver, WaitsForASecondLookWhereWorkLags) {
+  EnergyGrowthObserver observer(1e-24, true);
+  observer.add(0.0);
+  EXPECT_FALSE(observer.is_blown_up(1.0));
+  EXPECT_TRUE(observer.is_too_much(1.0));
+  observer.add(2.0);
+  EXPECT_FALSE(observer.is_blown_up(4.0));
+  EXPECT_FALSE(observer.is_too_much(4.0));
+  EnergyGrowthObserver grows(1e-24, true);
   EXPECT_FALSE(grows.is_blown_up(1.0));
   EXPECT_TRUE(grows.is_blown_up(4.0));
   EXPECT_TRUE(grows.is_blown_up(std::nan("")));

@@ -164,7 +164,7 @@ class Creep final : public joints::PairInteraction {
   [[nodiscard]] std::size_t most_points() const override { return 1; }
   [[nodiscard]] std::size_t memory_size() const override { return 5; }
   void check(int /*modes_A*/, int /*modes_B*/) const override {}
-  void evaluate(const joints::PairBodies& bodies, const Instant& /*now*/,
+  void evaluate(const joints::PairBodies& bodies, const EvaluationTime& /*now*/,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override {
     const Vector3 rest(memory[0], memory[1], memory[2]);
@@ -258,7 +258,8 @@ class Broken final : public joints::PairInteraction {
   void describe_parameters(Manifest& /*out*/) const override {}
   [[nodiscard]] std::size_t most_points() const override { return 1; }
   void check(int /*modes_A*/, int /*modes_B*/) const override {}
-  void evaluate(const joints::PairBodies& /*bodies*/, const Instant& /*now*/,
+  void evaluate(const joints::PairBodies& /*bodies*/,
+                const EvaluationTime& /*now*/,
                 std::span<const double> /*memory*/,
                 joints::PairResponse& out) const override {
     out.add().force_W.setConstant(std::numeric_limits<double>::quiet_NaN());

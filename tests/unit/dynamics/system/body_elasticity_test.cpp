@@ -15,7 +15,7 @@
 #include "limber/common/records/manifest.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/level_advice.hpp"
-#include "limber/dynamics/analysis/level_survey.hpp"
+#include "limber/dynamics/analysis/level_observer.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/system/model_fields.hpp"
@@ -135,7 +135,8 @@ TEST(BodyElasticity, IsLeftOutOfARigidBody) {
 TEST(BodyElasticity, ThatCouplesModesHasNoAdviceOnLevels) {
   const SystemModel model = make_model(make_strain(), Fidelity::uncoupled);
   const char* why = "body 'arm': its elasticity couples its modes, but advice";
-  EXPECT_THAT(refuse([&] { LevelSurvey survey(model); }), HasSubstr(why));
+  EXPECT_THAT(refuse([&] { LevelObserver level_observer(model); }),
+              HasSubstr(why));
   EXPECT_THAT(
       refuse([&] { (void)estimate_errors(model.bodies[0], BodyPeaks{}); }),
       HasSubstr(why));

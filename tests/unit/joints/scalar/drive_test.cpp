@@ -6,7 +6,7 @@
 namespace limber::joints::drive_test {
 namespace {
 
-constexpr Instant kNow{0.5};
+constexpr EvaluationTime kNow{0.5};
 
 Drive::Parameters position() {
   return {.mode = DriveMode::position,

@@ -25,8 +25,8 @@ constexpr double kEnergyStep = 1e-5;
 constexpr double kForceDifference = 1e-6;
 
 // The drives move until 1.9 s.
-constexpr Instant kMidway{0.7};
-constexpr Instant kAfterwards{10.0};
+constexpr EvaluationTime kMidway{0.7};
+constexpr EvaluationTime kAfterwards{10.0};
 
 struct NamedLaw {
   std::string name;
@@ -111,7 +111,7 @@ class ScalarLaws : public ::testing::TestWithParam<NamedLaw> {
     return {};
   }
   [[nodiscard]] ScalarResponse at(const ScalarMotion& motion,
-                                  const Instant& now) const {
+                                  const EvaluationTime& now) const {
     return evaluate(GetParam().law, motion, now);
   }
 

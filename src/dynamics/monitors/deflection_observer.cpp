@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/monitors/deflection_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+double find_largest(const Matrix3& stiffness) {
+  return dense::find_eigenvalues(stiffness).maxCoeff();
+}
+
+// Size of an attachment's body, measured from the attachment [m].
+double find_size(const SystemModel& model, AttachmentIndex from) {
+  const Attachment& a = model.attachments[static_cast<std::size_t>(from)];
+  if (a.body == kWorld) return std::numeric_limits<double>::infinity();
+  const BodyModel& body = model.bodies[static_cast<std::size_t>(a.body)];
+  double size = std::sqrt(find_largest(body.J0) / body.mass);
+  for (const Attachment& other : model.attachments) {
+    if (other.body == a.body) {
+      size = std::max(size, (other.p_BF - a.p_BF).norm());
+    }
+  }
+  return size;
+}
+
+}  // namespace
+
+DeflectionObserver::DeflectionObserver(const SystemModel& model)
+    : model_(model), groups_(find_linked_groups(model)) {
+  std::vector<std::size_t> group_of(model.bodies.size());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (const BodyIndex b : groups_[g]) {
+      group_of[static_cast<std::size_t>(b)] = g;
+    }
+  }
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const Coupler& coupler = model.couplers[c];
+    const auto stiffness = joints::find_hold_stiffness(coupler.law);
+    if (!stiffness) continue;
+    Hold hold;
+    hold.coupler = c;
+    hold.stiffness = *stiffness;
+    const double size_F = find_size(model, coupler.frame_F);
+    const double size_M = find_size(model, coupler.frame_M);
+    hold.size = std::min(size_F, size_M);
+    const AttachmentIndex frame =
+        size_F < size_M ? coupler.frame_F : coupler.frame_M;
+    const BodyIndex body =
+        model.attachments[static_cast<std::size_t>(frame)].body;
+    if (body == kWorld || !(hold.size > 0.0)) continue;
+    hold.body = static_cast<std::size_t>(body);
+    hold.group = group_of[hold.body];
+    holds_.push_back(hold);
+  }
+}
+
+void DeflectionObserver::include(const SystemState& state,
+                                 const SystemTerms& terms) {
+  for (Hold& hold : holds_) {
+    const joints::HoldGive give =
+        joints::find_give(model_.couplers[hold.coupler].law, hold.stiffness,
+                          terms.couplers[hold.coupler].motion);
+    if (give.distance > hold.give) {
+      hold.give = give.distance;
+      hold.give_time = state.t;
+    }
+    if (give.turn > hold.turn) {
+      hold.turn = give.turn;
+      hold.turn_time = state.t;
+    }
+    const double energy =
+        0.5 * hold.stiffness.translational * give.distance * give.distance +
+        0.5 * hold.stiffness.rotational * give.turn * give.turn;
+    if (energy > hold.energy) {
+      hold.energy = energy;
+      hold.elastic = 0.0;
+      for (const BodyIndex b : groups_[hold.group]) {
+        hold.elastic += find_elastic_energy(model_, static_cast<std::size_t>(b),
+                                            state, terms);
+      }
+      hold.energy_time = state.t;
+    }
+  }
+}
+
+std::string DeflectionObserver::describe(const Hold& hold) const {
+  const std::string& joint = model_.couplers[hold.coupler].name;
+  const std::string& body = model_.bodies[hold.body].name;
+  if (hold.give / hold.size >= hold.turn) {
+    const double share = hold.give / hold.size;
+    return fmt::format(
+        "joint '{}' gives way by {:.3g} m at t = {:.6g} s in constrained "
+        "directions, {:.3g} % of the size of body '{}' ({:.3g} m); a "
+        "translational stiffness of {:.2g} N/m in place of {:.2g} N/m would "
+        "hold it to 0.1 %",
+        joint, hold.give, hold.give_time, 100.0 * share, body, hold.size,
+        hold.stiffness.translational * share / kLargest,
+        hold.stiffness.translational);
+  }
+  return fmt::format(
+      "joint '{}' gives way by {:.3g} rad at t = {:.6g} s about constrained "
+      "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a "
+      "rotational stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would "
+      "limit this to 0.1 % of the body's size",
+      joint, hold.turn, hold.turn_time, body, hold.size, hold.turn * hold.size,
+      hold.stiffness.rotational * hold.turn / kLargest,
+      hold.stiffness.rotational);
+}
+
+std::string DeflectionObserver::describe_share(const Hold& hold) const {
+  return fmt::format(
+      "joint '{}' is soft beside the bodies: at t = {:.6g} s it stores {:.3g} "
+      "J "
+      "in its constrained directions, {:.3g} % of the elastic energy of the "
+      "bodies connected to it; {:.2g} times its stiffness would keep it at "
+      "{:g} %",
+      model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
+      100.0 * hold.share(), hold.share() / kLargestShare,
+      100.0 * kLargestShare);
+}
+
+std::string DeflectionObserver::describe_shares(
+    std::vector<const Hold*> soft) const {
+  constexpr std::size_t kMost = 4;
+  std::stable_sort(soft.begin(), soft.end(), [](const Hold* a, const Hold* b) {
+    return a->share() > b->share();
+  });
+  std::string text = describe_share(*soft.front());
+  for (std::size_t i = 1; i < std::min(kMost, soft.size()); ++i) {
+    text += fmt::format("{} '{}'", i == 1 ? "; also soft:" : ",",
+                        model_.couplers[soft[i]->coupler].name);
+  }
+  if (soft.size() > kMost)
+    text += fmt::format(" and {} more", soft.size() - kMost);
+  return text;
+}
+
+std::vector<std::string> DeflectionObserver::find_warnings() const {
+  std::vector<std::string> warnings;
+  std::vector<const Hold*> soft;
+  for (const Hold& hold : holds_) {
+    if (hold.largest() > kLargest) {
+      warnings.push_back(describe(hold));
+    } else if (hold.largest() > kNegligible && hold.share() > kLargestShare) {
+      soft.push_back(&hold);
+    }
+  }
+  if (!soft.empty()) warnings.push_back(describe_shares(std::move(soft)));
+  return warnings;
+}
+
+void DeflectionObserver::add_negligible_energies(
+    Eigen::Ref<VectorX> losses) const {
+  constexpr double kTimes = 10.0;
+  for (const Hold& hold : holds_) {
+    if (hold.largest() > kNegligible) continue;
+    losses[static_cast<Eigen::Index>(hold.coupler)] += kTimes * hold.energy;
+  }
+}
+
+std::optional<std::string> DeflectionObserver::find_overpowered() const {
+  const auto worst = std::max_element(
+      holds_.begin(), holds_.end(),
+      [](const Hold& a, const Hold& b) { return a.largest() < b.largest(); });
+  if (worst == holds_.end() || worst->largest() <= kOverpowered) {
+    return std::nullopt;
+  }
+  return describe(*worst) + ": the loads are stronger than this joint";
+}
+
+void DeflectionObserver::exchange_memory(Archive& archive) {
+  for (Hold& hold : holds_) {
+    archive(hold.give, hold.turn, hold.give_time, hold.turn_time, hold.energy,
+            hold.elastic, hold.energy_time);
+  }
+}
+
+std::vector<std::string> find_hold_warnings(const SystemModel& model,
+                                            const SystemState& state) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  DeflectionObserver observer(model);
+  observer.include(state, terms);
+  return observer.find_warnings();
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/monitors/energy_observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Wrench and stiffness times the round-off of a frame's motion.
+double find_noise(const CouplerTerms& coupler, double reach) {
+  const double d = kEpsilon * reach;
+  const auto& response = coupler.response;
+  const double k = response.stiffness.topLeftCorner<3, 3>().trace();
+  const double k_turn = response.stiffness.bottomRightCorner<3, 3>().trace();
+  const double force = response.wrench.head<3>().norm();
+  const double moment = response.wrench.tail<3>().norm();
+  return (force + k * d) * d + (moment + k_turn * kEpsilon) * kEpsilon;
+}
+
+// Power of a pair's forces on moving bodies.
+double find_power(const joints::PairResponse& pair) {
+  double power = 0.0;
+  for (const joints::PairPoint& point : pair.points()) {
+    power += point.force_W.dot(point.velocity_W);
+  }
+  return power;
+}
+
+}  // namespace
+
+EnergyObserver::EnergyObserver(const SystemModel& model,
+                               IntegratorKind integrator)
+    : model_(model),
+      works_by_ends_(integrator == IntegratorKind::generalized_alpha ||
+                     integrator == IntegratorKind::implicit_euler),
+      rows_(model),
+      groups_(model, integrator == IntegratorKind::explicit_euler),
+      accounts_(static_cast<std::size_t>(rows_.count)),
+      next_(accounts_) {
+  for (const FullModel& full : model.full_bodies) {
+    scratch_.emplace_back(Matrix3X::Zero(3, full.mesh->node_count()));
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const bool is_free = body.has_rigid_motion() || body.full >= 0;
+    accounts_[b].mass = is_free ? body.mass : 0.0;
+  }
+}
+
+void EnergyObserver::evaluate_full(std::size_t b, const SystemState& state,
+                                   const SystemTerms& terms) {
+  const auto f = static_cast<std::size_t>(model_.bodies[b].full);
+  const FullTerms& t = terms.full[f];
+  const ConstNodes udot = nodes_of(model_.full_bodies[f], state.udot_H);
+  t.solver->multiply_mass(udot, scratch_[f]);
+  EnergyAccount& row = next_[b];
+  row.kinetic = 0.5 * scratch_[f].cwiseProduct(udot).sum();
+  row.power = terms.bodies[b].received;
+  const Matrix3& R_WH = state.X_WH[f].R;
+  row.momentum = R_WH * scratch_[f].rowwise().sum();
+  row.force = R_WH * t.force.rowwise().sum();
+}
+
+void EnergyObserver::evaluate_body(std::size_t b, const SystemState& state,
+                                   const SystemTerms& terms) {
+  const BodyModel& body = model_.bodies[b];
+  if (body.full >= 0) return evaluate_full(b, state, terms);
+  const BodyState& rigid = state.bodies[b];
+  const BodyTerms& t = terms.bodies[b];
+  const auto etadot = state.etadot.segment(body.offset, body.modes);
+  EnergyAccount& row = next_[b];
+  row.kinetic = 0.5 * etadot.squaredNorm();
+  row.power = t.received;
+  if (body.has_rigid_motion()) {
+    const Vector3& w = rigid.w_WB_B;
+    row.momentum = body.mass * rigid.v_WB_W;
+    row.force = t.force_W;
+    row.kinetic += 0.5 * row.momentum.dot(rigid.v_WB_W) +
+                   w.dot(0.5 * (t.J * w) + t.H * etadot);
+  }
+}
+
+EnergyObserver::Sums EnergyObserver::evaluate(const SystemState& state,
+                                              const SystemTerms& terms) {
+  next_ = accounts_;
+  Sums sums;
+  std::size_t row = 0;
+  for (; row < model_.bodies.size(); ++row) {
+    evaluate_body(row, state, terms);
+    const double elastic = find_elastic_energy(model_, row, state, terms);
+    next_[row].stored = next_[row].kinetic + elastic;
+    sums.kinetic += next_[row].kinetic;
+    sums.elastic += elastic;
+  }
+  const auto set = [&](double energy, double power) {
+    next_[row].stored = energy;
+    next_[row++].power = power;
+    sums.coupler += energy;
+  };
+  for (const CouplerTerms& coupler : terms.couplers) {
+    set(coupler.response.energy, coupler.received);
+  }
+  for (const TransmissionTerms& transmission : terms.transmissions) {
+    set(transmission.response.energy, transmission.received);
+  }
+  for (const joints::PairResponse& response : terms.pairs.responses) {
+    set(response.energy, -find_power(response));
+  }
+  set_noise(terms);
+  return sums;
+}
+
+// Of places as far from the origin as either frame's, and of its arm.
+void EnergyObserver::set_noise(const SystemTerms& terms) {
+  const auto include = [this](Eigen::Index row, double noise) {
+    double& most = next_[static_cast<std::size_t>(row)].noise;
+    most = std::max(most, noise);
+  };
+  const auto reach = [&](AttachmentIndex frame) {
+    const auto i = static_cast<std::size_t>(frame);
+    return terms.attachments[i].p_WF.norm() + model_.attachments[i].p_BF.norm();
+  };
+  for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
+    const Coupler& coupler = model_.couplers[c];
+    include(rows_.couplers + static_cast<Eigen::Index>(c),
+            find_noise(terms.couplers[c], std::max(reach(coupler.frame_F),
+                                                   reach(coupler.frame_M))));
+  }
+  for (std::size_t i = 0; i < terms.pairs.responses.size(); ++i) {
+    if (terms.pairs.responses[i].points().empty()) continue;
+    const joints::PairBodies bodies = find_bodies(model_.pairs[i], terms.pairs);
+    const double d = kEpsilon * (bodies.A.p_WB.norm() + bodies.B.p_WB.norm());
+    double noise = 0.0;
+    for (const auto& point : terms.pairs.responses[i].points()) {
+      noise += (point.force_W.norm() + point.stiffness.norm() * d) * d;
+    }
+    include(rows_.pairs + static_cast<Eigen::Index>(i), noise);
+  }
+}
+
+// Rounding of a place in each step of `h` [s] by up to eps L.
+void EnergyObserver::set_jitter(const SystemState& state, double h) {
+  if (!(h > 0.0)) return;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const double reach =
+        state.bodies[b].p_WB.norm() + std::sqrt(body.J0.trace() / body.mass);
+    const double speed = kEpsilon * reach / h;
+    double& most = next_[b].jitter;
+    most = std::max(most, 0.5 * body.mass * speed * speed);
+  }
+}
+
+void EnergyObserver::advance(double t, const EnergyFlows& flows) {
+  const double half = 0.5 * (t - time_);
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    const EnergyAccount& last = accounts_[i];
+    EnergyAccount& row = next_[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const double received = half * (last.power + row.power);
+    const Vector3 impulse = works_by_ends_
+                                ? Vector3(half * (last.force + row.force))
+                                : Vector3(row.momentum - last.momentum);
+    const double supplied = flows.supplied[k] - last.supplied;
+    const double lost = flows.dissipated[k] - last.dissipated;
+    const double net =
+        received + supplied - impulse.dot(groups_.find_velocity(k));
+    row.received += received;
+    row.impulse += impulse;
+    row.supplied = flows.supplied[k];
+    row.dissipated = flows.dissipated[k];
+    (net > 0.0 ? row.in : row.out) += std::abs(net);
+    row.passed += half * (std::abs(last.power) + std::abs(row.power)) +
+                  std::abs(supplied) + std::abs(lost);
+  }
+}
+
+void EnergyObserver::include_energies(const Sums& sums, double t) {
+  record_.stored.include(sums.total(), t);
+  record_.kinetic.include(sums.kinetic, t);
+  record_.elastic.include(sums.elastic, t);
+  record_.coupler.include(sums.coupler, t);
+}
+
+void EnergyObserver::start(const SystemState& state, const SystemTerms& terms,
+                           double taken) {
+  const Sums sums = evaluate(state, terms);
+  for (EnergyAccount& row : next_) {
+    row.initial = row.stored;
+    row.first_momentum = row.momentum;
+  }
+  accounts_ = next_;
+  time_ = state.t;
+  record_ = {};
+  groups_.start(accounts_, taken);
+  groups_.connect(terms.pairs, accounts_);
+  include_energies(sums, state.t);
+}
+
+bool EnergyObserver::is_remarkable(const Sums& sums) const {
+  const auto grows = [](double now, const Extreme& before) {
+    return now > kLeastGrowth * std::abs(before.value);
+  };
+  return grows(sums.total(), record_.stored) ||
+         grows(sums.coupler, record_.coupler);
+}
+
+void EnergyObserver::restart(const SystemState& state,
+                             const SystemTerms& terms) {
+  evaluate(state, terms);
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    accounts_[i].power = next_[i].power;
+    accounts_[i].force = next_[i].force;
+  }
+}
+
+void EnergyObserver::add(const SystemState& state, const SystemTerms& terms,
+                         const EnergyFlows& flows) {
+  const Sums sums = evaluate(state, terms);
+  set_jitter(state, state.t - time_);
+  advance(state.t, flows);
+  groups_.sum_up(next_);
+  accept(sums, terms, state.t);
+}
+
+bool EnergyObserver::try_add(const SystemState& state, const SystemTerms& terms,
+                             const EnergyFlows& flows) {
+  const Sums sums = evaluate(state, terms);
+  set_jitter(state, state.t - time_);
+  advance(state.t, flows);
+  if (is_remarkable(sums)) return false;
+  groups_.sum_up(next_);
+  if (groups_.has_new_drift()) return false;
+  accept(sums, terms, state.t);
+  return true;
+}
+
+void EnergyObserver::accept(const Sums& sums, const SystemTerms& terms,
+                            double t) {
+  if (groups_.connect(terms.pairs, accounts_)) groups_.sum_up(next_);
+  accounts_.swap(next_);
+  time_ = t;
+  ++steps_;
+  include_energies(sums, t);
+  groups_.include(accounts_, t);
+}
+
+bool EnergyObserver::has_too_much(const SystemState& state,
+                                  const SystemTerms& terms) {
+  evaluate(state, terms);
+  groups_.sum_up(next_);
+  const bool is_much = groups_.has_too_much();
+  groups_.sum_up(accounts_);
+  return is_much;
+}
+
+Vector3 EnergyObserver::find_mean_velocity(const Pair& pair) const {
+  double mass = 0.0;
+  Vector3 momentum = Vector3::Zero();
+  for (const BodyIndex b : {pair.body_A, pair.body_B}) {
+    if (b == kWorld) return Vector3::Zero();
+    const EnergyAccount& account = accounts_[index(b)];
+    if (account.mass == 0.0) return Vector3::Zero();
+    mass += account.mass;
+    momentum += account.momentum;
+  }
+  return momentum / mass;
+}
+
+EnergyObserver::PairStep EnergyObserver::find_pair_step(std::size_t i) const {
+  const Pair& pair = model_.pairs[i];
+  const Eigen::Index row = rows_.pairs + static_cast<Eigen::Index>(i);
+  const EnergyAccount& account = accounts_[static_cast<std::size_t>(row)];
+  const Vector3 v = find_mean_velocity(pair);
+  const double walk = 10.0 * std::sqrt(steps_);
+  PairStep step{
+      .time = time_, .stored = account.stored, .returned = account.out};
+  for (std::size_t k = 0; k < accounts_.size(); ++k) {
+    const auto other = static_cast<Eigen::Index>(k);
+    if (!groups_.is_same(row, other)) continue;
+    const double error = accounts_[k].error_in(v) - next_[k].error_in(v);
+    step.group_error += error;
+    const bool is_body =
+        k < model_.bodies.size() &&
+        (BodyIndex(other) == pair.body_A || BodyIndex(other) == pair.body_B);
+    if (other != row && !is_body) continue;
+    step.own_error += error;
+    step.roundoff += accounts_[k].roundoff_in(v) + walk * accounts_[k].noise;
+  }
+  return step;
+}
+
+EnergyRecord EnergyObserver::find_record(const VectorX& negligible) const {
+  EnergyRecord record = record_;
+  record.drift = groups_.drift();
+  const auto is_worse = [](const EnergyDrift& a, const EnergyDrift& b) {
+    const double shares[] = {find_open_share(a), find_open_share(b)};
+    if (shares[0] != shares[1]) return shares[0] > shares[1];
+    return std::abs(a.drift.value) > std::abs(b.drift.value);
+  };
+  for (EnergyDrift& drift :
+       groups_.find_drifts(accounts_, negligible, steps_)) {
+    record.throughput += drift.throughput;
+    record.roundoff += drift.roundoff;
+    if (is_worse(drift, record.worst)) record.worst = std::move(drift);
+  }
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    const EnergyAccount& row = accounts_[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vector3& v = groups_.find_velocity(k);
+    const double stored = row.stored_in(v);
+    if (row.in + row.out + row.dissipated == 0.0 && stored == 0.0) continue;
+    record.rows.push_back({name_energy_row(model_, k), stored, row.in, row.out,
+                           row.dissipated, row.error_in(v)});
+  }
+  return record;
+}
+
+void EnergyObserver::exchange_memory(Archive& archive) {
+  archive(accounts_, time_, steps_, record_.stored, record_.kinetic,
+          record_.elastic, record_.coupler);
+  groups_.exchange_memory(archive);
+  if (archive.reads()) groups_.sum_up(accounts_);
+}
+
+}  // namespace limber::dynamics

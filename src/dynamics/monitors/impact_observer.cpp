@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/monitors/impact_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/dynamics/monitors/impact_spectrum.hpp"
+#include "limber/dynamics/monitors/joint_response.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+Vector3 find_rigid_velocity(const joints::PairBody& body, const Vector3& p_W) {
+  const Vector3 w_W = body.R_WB * body.w_WB_B;
+  return body.v_WB_W + w_W.cross(p_W - body.p_WB);
+}
+
+constexpr double kLeastImpactSpeed = 1e-9;  // [m/s]
+
+// Of a pair since the start; the error is what steps lose that no law does.
+ImpactEnergy find_energies(const EnergyObserver::PairStep& step,
+                           const EnergyFlows& flows, Eigen::Index pair) {
+  const Eigen::Index row =
+      std::ssize(flows.dissipated) - std::ssize(flows.damped) + pair;
+  const double damped = flows.damped[pair];
+  const double rubbed = flows.rubbed[pair];
+  return {.returned = step.returned,
+          .stored = step.stored,
+          .damped = damped,
+          .rubbed = rubbed,
+          .error = damped + rubbed - flows.dissipated[row]};
+}
+
+// What two sums agree on.
+double find_common(double a, double b) {
+  if ((a < 0.0) != (b < 0.0)) return 0.0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+const char* advise_on_impacts(IntegratorKind scheme) {
+  if (scheme == IntegratorKind::implicit_euler) {
+    return "take shorter steps or generalized-alpha";
+  }
+  return scheme == IntegratorKind::energy_conserving
+             ? "take shorter steps or more impact_steps"
+             : "take shorter steps, more impact_steps or energy-conserving";
+}
+
+}  // namespace
+
+ImpactObserver::ImpactObserver(const SystemModel& model, IntegratorKind scheme,
+                               double h)
+    : model_(model),
+      scheme_(scheme),
+      rest_speed_(std::max(h * model.gravity_W.norm(), kLeastImpactSpeed)) {}
+
+double ImpactObserver::find_approach(const Pair& pair, const SystemState& state,
+                                     const Vector3& p_W,
+                                     const Vector3& normal_W) const {
+  const PairMotion motion = find_pair_motion(model_, pair, state);
+  const joints::PairBodies bodies = motion.bodies();
+  return normal_W.dot(find_rigid_velocity(bodies.A, p_W) -
+                      find_rigid_velocity(bodies.B, p_W));
+}
+
+void ImpactObserver::begin(std::size_t i, const SystemState& state,
+                           ContactStartObserver& touches) {
+  OngoingContact& pair = pairs_[i];
+  ContactRecord& record = pair.record;
+  pair.is_touching = true;
+  const double lasted = pair.left - record.time;
+  const bool is_met = std::isfinite(touches.impact_duration(i));
+  if (is_met && record.touches > 0 && state.t - pair.left <= lasted) {
+    ++record.touches;
+    return;
+  }
+  if (record.touches > 0) finished_.push_back(record);
+  const Pair& of = model_.pairs[touches.pair_of(i)];
+  const joints::PairTouch touch = touches.find_touch(i, state);
+  pair.most_force = {};
+  pair.most_depth = {};
+  pair.own_error = pair.group_error = 0.0;
+  record = {.pair = of.name, .time = state.t, .touches = 1};
+  record.rest_speed = rest_speed_;
+  record.impact_duration = touches.impact_duration(i);
+  record.touch_speed = find_approach(of, state, touch.p_W, touch.normal_W);
+}
+
+void ImpactObserver::include(std::size_t i, const SystemState& state,
+                             ContactStartObserver& touches, double h) {
+  OngoingContact& pair = pairs_[i];
+  ContactRecord& record = pair.record;
+  const bool touched = pair.is_touching;
+  const bool touches_now = touches.is_touching(i);
+  if (!touched && !touches_now) return;
+  joints::TouchReading now;
+  if (touches_now) now = touches.read(i, state);
+  if (!touched) begin(i, state, touches);
+  if (touched) {
+    record.impulse += 0.5 * h * (pair.force + now.normal_force);
+  }
+  if (now.normal_force > 0.0) {
+    pair.normal_W = now.normal_W;
+    pair.p_W = now.p_W;
+  }
+  const bool is_strongest = now.normal_force > record.peak_force;
+  pair.most_force.include(now.normal_force, state.t);
+  pair.most_depth.include(now.depth, state.t);
+  record.peak_force = pair.most_force.peak().value;
+  record.peak_time = pair.most_force.peak().time;
+  record.peak_depth = pair.most_depth.peak().value;
+  if (now.area > 0.0) {
+    record.peak_depth_over_radius =
+        std::max(record.peak_depth_over_radius,
+                 std::numbers::pi * now.depth * now.depth / now.area);
+  }
+  if (is_strongest) keep_stiffest(state, record);
+  pair.force = now.normal_force;
+  pair.is_touching = touches_now;
+  record.has_parted = !touches_now;
+  record.duration = state.t - record.time;
+  if (touches_now) return;
+  pair.left = state.t;
+  record.parting_speed = -find_approach(model_.pairs[touches.pair_of(i)], state,
+                                        pair.p_W, pair.normal_W);
+}
+
+void ImpactObserver::balance(std::size_t i, std::size_t of, bool touched,
+                             double t, const StepObserver& step_observer,
+                             const EnergyFlows& flows) {
+  OngoingContact& pair = pairs_[i];
+  ImpactEnergy& energy = pair.record.energy;
+  const EnergyObserver::PairStep step = step_observer.find_pair_step(of);
+  const ImpactEnergy now =
+      find_energies(step, flows, static_cast<Eigen::Index>(of));
+  const bool is_new = !touched && pair.record.touches == 1;
+  if (is_new) pair.before = now;
+  if (touched && step.time == t) {
+    pair.own_error += step.own_error;
+    pair.group_error += step.group_error;
+  }
+  energy.returned = now.returned - pair.before.returned;
+  energy.stored = now.stored - pair.before.stored;
+  energy.damped = now.damped - pair.before.damped;
+  energy.rubbed = now.rubbed - pair.before.rubbed;
+  energy.error = now.error - pair.before.error +
+                 find_common(pair.own_error, pair.group_error);
+  energy.roundoff = step.roundoff;
+  energy.in = energy.stored + energy.returned + energy.damped + energy.rubbed -
+              energy.error;
+}
+
+void ImpactObserver::include(const SystemState& state,
+                             ContactStartObserver& touches,
+                             const StepObserver& step_observer,
+                             const EnergyFlows& flows) {
+  pairs_.resize(touches.count());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const bool touched = pairs_[i].is_touching;
+    include(i, state, touches, state.t - time_);
+    if (!touched && !pairs_[i].is_touching) continue;
+    balance(i, touches.pair_of(i), touched, state.t, step_observer, flows);
+  }
+  time_ = state.t;
+}
+
+void ImpactObserver::keep_stiffest(const SystemState& state,
+                                   const ContactRecord& record) {
+  if (traits_of(scheme_).is_implicit) return;
+  if (!(record.peak_force > strongest_.peak_force)) return;
+  stiffest_ = state;
+  strongest_ = record;
+}
+
+std::vector<ContactRecord> ImpactObserver::find_records() const {
+  std::vector<ContactRecord> records = finished_;
+  for (const OngoingContact& pair : pairs_) {
+    if (pair.record.touches > 0) records.push_back(pair.record);
+  }
+  std::stable_sort(records.begin(), records.end(),
+                   [](const ContactRecord& a, const ContactRecord& b) {
+                     return a.time < b.time;
+                   });
+  return records;
+}
+
+void ImpactObserver::add_warnings(std::vector<std::string>& warnings) const {
+  const std::vector<ContactRecord> records = find_records();
+  for (const ImpactSpectrum& spectrum : find_impact_spectra(model_, records)) {
+    if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));
+  }
+  for (const JointResponse& joint : find_joint_responses(model_, records)) {
+    if (!joint.is_enough()) warnings.push_back(describe(joint));
+  }
+  add_deep(records, warnings);
+  add_unbalanced(records, warnings);
+  add_unmet(records, warnings);
+  add_stable_step(warnings);
+}
+
+void ImpactObserver::add_deep(const std::vector<ContactRecord>& records,
+                              std::vector<std::string>& warnings) const {
+  std::set<std::string> said;
+  for (const ContactRecord& record : records) {
+    const double over_extent = record.peak_depth / find_extent(record.pair);
+    const double over_radius = record.peak_depth_over_radius;
+    const bool is_round = over_radius > kDeepest;
+    if (!is_round && !(over_extent > kDeepest)) continue;
+    if (!said.insert(record.pair).second) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': the impact at t = {:.6g} s is {:.3g} m deep, {:.2g} of "
+        "the {}; Hertz's law is that of small deformation: beyond {:g} do not "
+        "trust its force and energy",
+        record.pair, record.time, record.peak_depth,
+        is_round ? over_radius : over_extent,
+        is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
+  }
+}
+
+// Once per pair, of its worst impact.
+void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
+                                    std::vector<std::string>& warnings) const {
+  struct Worst {
+    const ContactRecord* record = nullptr;
+    int impacts = 0;
+    int open = 0;
+  };
+  std::map<std::string, Worst> pairs;
+  for (const ContactRecord& record : records) {
+    if (!record.is_impact()) continue;
+    Worst& worst = pairs[record.pair];
+    const double share = record.energy.open_share();
+    ++worst.impacts;
+    if (!(share > kToldDrift)) continue;
+    ++worst.open;
+    if (worst.record == nullptr || share > worst.record->energy.open_share()) {
+      worst.record = &record;
+    }
+  }
+  for (const auto& [name, worst] : pairs) {
+    if (worst.record == nullptr) continue;
+    const ImpactEnergy& energy = worst.record->energy;
+    warnings.push_back(fmt::format(
+        "contact '{}': in the impact at t = {:.6g} s steps {} {:.3g} J that "
+        "nothing accounts for, {:.3g} % of its {:.3g} J, so that its "
+        "restitution is not kept; {} of {} impacts have more than {:g} %; {}",
+        name, worst.record->time, energy.error < 0.0 ? "lose" : "gain",
+        std::abs(energy.error), 100.0 * energy.open_share(),
+        std::max(energy.in, energy.returned), worst.open, worst.impacts,
+        100.0 * kToldDrift, advise_on_impacts(scheme_)));
+  }
+}
+
+// Once per pair, for touches without a common normal (Touching::begin_touch).
+void ImpactObserver::add_unmet(const std::vector<ContactRecord>& records,
+                               std::vector<std::string>& warnings) const {
+  std::set<std::string> said;
+  for (const ContactRecord& record : records) {
+    if (!std::isinf(record.impact_duration)) continue;
+    if (!said.insert(record.pair).second) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': at t = {:.6g} s surfaces meet that do not face each "
+        "other, as where an open one is met from behind: there is no force, "
+        "and both may pass through each other",
+        record.pair, record.time));
+  }
+}
+
+// Extent of the smaller body of a pair, from its origin [m].
+double ImpactObserver::find_extent(const std::string& pair) const {
+  const auto found =
+      std::find_if(model_.pairs.begin(), model_.pairs.end(),
+                   [&pair](const Pair& other) { return other.name == pair; });
+  const joints::Touching& touching = *found->law->touching();
+  return std::min(touching.find_reach_A().extent,
+                  touching.find_reach_B().extent);
+}
+
+void ImpactObserver::add_stable_step(std::vector<std::string>& warnings) const {
+  if (!(strongest_.peak_force > 0.0)) return;
+  const bool is_known = scheme_ != IntegratorKind::explicit_euler;
+  const double longest = is_known ? find_stable_step(model_, stiffest_, scheme_)
+                                  : find_stable_step(model_, stiffest_);
+  warnings.push_back(fmt::format(
+      "contact '{}': {} is stable up to {:.3g} s at t = {:.6g} s, where its "
+      "force is largest, {:.4g} N",
+      strongest_.pair, is_known ? to_string(scheme_) : "an explicit scheme",
+      longest, strongest_.peak_time, strongest_.peak_force));
+}
+
+void ImpactObserver::exchange_memory(Archive& archive) {
+  archive(pairs_, finished_, time_, stiffest_, strongest_);
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/refined_peak.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+#include "limber/dynamics/monitors/contact_record.hpp"
+#include "limber/dynamics/monitors/contact_start_observer.hpp"
+#include "limber/dynamics/monitors/step_observer.hpp"
+
+namespace limber::dynamics {
+
+/// A contact of a pair, from its first to its last touch.
+struct OngoingContact {
+  bool is_touching = false;
+  double force = 0.0;                  ///< normal, at the last state [N]
+  double left = 0.0;                   ///< time of the last leave [s]
+  RefinedPeak most_force;              ///< of this record, normal [N]
+  RefinedPeak most_depth;              ///< of this record [m]
+  ContactRecord record = {};           ///< of no touches: there is none
+  Vector3 normal_W = Vector3::Zero();  ///< of the last force [-]
+  Vector3 p_W = Vector3::Zero();       ///< likewise [m]
+  ImpactEnergy before;  ///< at the first touch, since the start of the run
+  /// Errors in the steps of this record (EnergyObserver::PairStep) [J].
+  double own_error = 0.0;
+  double group_error = 0.0;
+};
+
+constexpr auto fields_of(const OngoingContact*) {
+  return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
+                     "largest force [N]", "largest depth [m]", "record",
+                     "normal", "place [m]", "energies before", "own error [J]",
+                     "error of the group [J]");
+}
+
+/// Records every impact from the ends of all accepted steps.
+///
+/// Equation   impulse by the trapezoidal rule; peaks of parabolas through three
+///            steps' ends. A contact at rest approaches at no more than
+///            max(|g| h, 1e-9 m/s), h the step of the run: bounces that end
+///            within two steps
+class ImpactObserver {
+ public:
+  /// @param h step of the run, 0 with a tolerance [s]
+  ImpactObserver(const SystemModel& model, IntegratorKind scheme, double h);
+
+  /// To be called at the start, and then after every accepted step.
+  /// @param step_observer that includes the step @param flows sums since the
+  /// start
+  void include(const SystemState& state, ContactStartObserver& touches,
+               const StepObserver& step_observer, const EnergyFlows& flows);
+
+  /// In the order of time; contacts that have not ended last until the last
+  /// state.
+  [[nodiscard]] std::vector<ContactRecord> find_records() const;
+  /// Warns of steps too long for their impacts, of bases too small for them
+  /// (ImpactSpectrum), of joints too soft (JointResponse), of contacts deeper
+  /// than kDeepest, of impacts whose energy does not balance, of touches of
+  /// surfaces that do not face each other, and of the stable step of an
+  /// explicit scheme where the force was largest.
+  void add_warnings(std::vector<std::string>& warnings) const;
+  /// Depth over the radius of curvature, or over the smaller body's extent
+  /// (areas shared by corners of a mesh define no radius), that gives a
+  /// warning: the area's radius is then 0.3 of it, while Hertz's paraboloid on
+  /// a half space assumes that it is small [@johnson1985] [-].
+  static constexpr double kDeepest = 0.1;
+
+  /// Saves or restores its state for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  void include(std::size_t index, const SystemState& state,
+               ContactStartObserver& touches, double h);
+  void begin(std::size_t index, const SystemState& state,
+             ContactStartObserver& touches);
+  void balance(std::size_t index, std::size_t pair, bool touched, double t,
+               const StepObserver& step_observer, const EnergyFlows& flows);
+  [[nodiscard]] double find_approach(const Pair& pair, const SystemState& state,
+                                     const Vector3& p_W,
+                                     const Vector3& normal_W) const;
+
+  void keep_stiffest(const SystemState& state, const ContactRecord& record);
+  void add_stable_step(std::vector<std::string>& warnings) const;
+  void add_deep(const std::vector<ContactRecord>& records,
+                std::vector<std::string>& warnings) const;
+  void add_unbalanced(const std::vector<ContactRecord>& records,
+                      std::vector<std::string>& warnings) const;
+  void add_unmet(const std::vector<ContactRecord>& records,
+                 std::vector<std::string>& warnings) const;
+  [[nodiscard]] double find_extent(const std::string& pair) const;
+
+  const SystemModel& model_;
+  IntegratorKind scheme_;
+  double rest_speed_;  // [m/s]
+  // For explicit schemes, the state with the largest force.
+  SystemState stiffest_;
+  ContactRecord strongest_;
+  std::vector<OngoingContact> pairs_;  // in the order of ContactStartObserver
+  std::vector<ContactRecord> finished_;
+  double time_ = 0.0;  // of the last state [s]
+};
+
+}  // namespace limber::dynamics
