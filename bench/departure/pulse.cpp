@@ -6,7 +6,7 @@
 
 #include "beam.hpp"
 #include "limber/flexbody/modal/modal_response.hpp"
-#include "limber/reduction/krylov.hpp"
+#include "limber/reduction/modal/krylov.hpp"
 
 namespace limber::bench::departure {
 namespace {

@@ -8,24 +8,43 @@ from . import _core
 from .errors import LimberWarning
 
 
-def reduce(mesh, *, youngs_modulus, poisson_ratio, density, interfaces=(),
-           clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=None,
-           second_order=False, stress=False):
-    """Reduces a mesh or geometry to a body that no longer needs the mesh.
+def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
+           matrices=None, mass=None, interfaces=(), clamps=(), modes=10,
+           rows=("boundary",), size=0.0, order=0, unit=None, second_order=False,
+           stress=False):
+    """Reduces a mesh or geometry to a body that no longer needs the mesh, or the
+    stiffness and mass matrix of a finite-element model.
 
-    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3];
-    ``interfaces``: groups of the mesh that become interfaces; ``clamps``: that
-    are fixed; ``modes``: number of eigenmodes, or "auto"; ``rows``: nodes to
-    keep; ``size`` [mesh units] and ``order`` of elements when a geometry is
-    meshed; ``unit``: of the mesh, [m] or "m", "cm", "mm", "in", "ft" (default:
-    the file's, where it states one, else 1 m); ``second_order``: with the tables that
-    level nonlinear needs; ``stress``: with stress modes.
+    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh;
+    ``matrices``: a folder, or a list of files, in place of mesh and material, with
+    ``mass`` [kg] of the whole model, which its program prints;
+    ``interfaces``: groups of the mesh, or node sets and "node:TAG" of matrices, that
+    become interfaces; ``clamps``: that are fixed; ``modes``: number of eigenmodes, or
+    "auto"; ``rows``: nodes to keep; ``size`` [mesh units] and ``order`` of elements
+    when a geometry is meshed; ``unit``: of lengths, [m] or "m", "cm", "mm", "in", "ft"
+    (default: the file's, where it states one, else 1 m; forces of matrices are in N);
+    ``second_order``: with the tables that level nonlinear needs; ``stress``: with
+    stress modes.
 
     Returns a :class:`ReducedBody`.
     """
-    wish = dict(mesh=os.fspath(mesh), youngs_modulus=youngs_modulus,
-                poisson_ratio=poisson_ratio, density=density,
-                interfaces=list(interfaces), clamps=list(clamps), modes=modes,
+    if (mesh is None) == (matrices is None):
+        raise TypeError("reduce() takes either a mesh or matrices")
+    if matrices is None:
+        given = dict(mesh=os.fspath(mesh), matrices=[], mass=0.0 if mass is None else mass)
+        for name, value in dict(youngs_modulus=youngs_modulus,
+                                poisson_ratio=poisson_ratio, density=density).items():
+            if value is None:
+                raise TypeError(f"reduce() of a mesh needs {name}")
+            given[name] = value
+    else:
+        single = isinstance(matrices, (str, bytes, os.PathLike))
+        given = dict(mesh="", matrices=[os.fspath(path) for path in
+                                        ([matrices] if single else matrices)],
+                     mass=0.0 if mass is None else mass,
+                     youngs_modulus=youngs_modulus or 0.0,
+                     poisson_ratio=poisson_ratio or 0.0, density=density or 0.0)
+    wish = dict(given, interfaces=list(interfaces), clamps=list(clamps), modes=modes,
                 rows=list(rows), size=size, order=order, unit=unit,
                 second_order=second_order, stress=stress)
     body, notices = _core.reduce(wish)

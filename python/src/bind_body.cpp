@@ -44,6 +44,8 @@ double read_unit(const py::object& unit) {
 flexbody::Recipe make_recipe(const py::dict& wish) {
   app::MeshOptions options;
   options.file = wish["mesh"].cast<std::string>();
+  options.matrices = wish["matrices"].cast<std::vector<std::string>>();
+  options.mass = wish["mass"].cast<double>();
   options.material = {wish["youngs_modulus"].cast<double>(),
                       wish["poisson_ratio"].cast<double>(),
                       wish["density"].cast<double>()};

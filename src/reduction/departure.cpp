@@ -5,7 +5,7 @@
 
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/reduction/krylov.hpp"
+#include "limber/reduction/modal/krylov.hpp"
 
 namespace limber::flexbody {
 namespace {

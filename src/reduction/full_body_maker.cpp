@@ -18,9 +18,9 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/flexbody/model/full_stress.hpp"
 #include "limber/reduction/contact_surface.hpp"
-#include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/meshed_body.hpp"
-#include "limber/reduction/support.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
+#include "limber/reduction/modal/support.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -188,6 +188,11 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
                                                const FullOptions& options,
                                                const Progress& progress,
                                                const ReducedBody* reduced) {
+  if (recipe.mesh.is_matrices())
+    throw InputError(fmt::format(
+        "{}: level full computes with a mesh's elements, of which matrices "
+        "have none. Use level coupled",
+        recipe.mesh.file.string()));
   fem::Mesh mesh = read_source(recipe.mesh, progress).mesh;
   if (reduced != nullptr) {
     require_same_mesh(recipe, mesh, reduced->content_key);

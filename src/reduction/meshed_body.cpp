@@ -12,6 +12,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/locking.hpp"
 #include "limber/reduction/contact_groups.hpp"
+#include "limber/reduction/modal/selection.hpp"
 
 namespace limber::flexbody {
 fem::TracedMesh read_source(const MeshSource& source,
@@ -39,36 +40,44 @@ std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
 
 namespace {
 
-void check_basis(const Recipe& recipe) {
-  const auto check_count = [&](int count) {
-    if (count >= 0) return;
-    throw InputError(fmt::format(
-        "body '{}': {} eigenmodes; expected 0 or more.", recipe.name, count));
-  };
-  check_count(recipe.basis.eigenmodes);
-  if (recipe.basis.automatic) check_count(recipe.basis.automatic->candidates);
-}
-
 /// Checks all names in the recipe before assembling, so that errors are found
-/// before long work. Fills `M_s`.
-Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
-                         const std::vector<Interface>& interfaces,
-                         fem::SparseMatrix& M_s, const Progress& progress) {
+/// before long work.
+fem::StructuralMatrices assemble_checked(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<Interface>& interfaces, const Progress& progress) {
   const std::vector<fem::ElasticMaterial> materials =
       find_materials(mesh, recipe);
-  static_cast<void>(find_pattern_loads(mesh, recipe, interfaces));
+  static_cast<void>(find_pattern_loads(
+      3 * static_cast<Eigen::Index>(mesh.node_count()), recipe, interfaces));
   check_basis(recipe);
   for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups})
     for (const std::string& name : *names)
       static_cast<void>(fem::find_group(mesh, name));
   static_cast<void>(
       find_contact_groups(mesh, recipe.contact_groups, materials));
-  fem::StructuralMatrices matrices = fem::assemble(mesh, materials, progress);
-  M_s = matrices.M_s;
-  return make_support(mesh, recipe, std::move(matrices));
+  return fem::assemble(mesh, materials, progress);
 }
 
 }  // namespace
+
+struct MeshedBody::Parts {
+  Parts(const Recipe& recipe, std::shared_ptr<const fem::TracedMesh> traced,
+        const Progress& progress)
+      : made(std::move(traced)),
+        interfaces(find_interfaces(made->mesh, recipe)) {
+    fem::StructuralMatrices matrices =
+        assemble_checked(made->mesh, recipe, interfaces, progress);
+    M_s = matrices.M_s;
+    support = make_support(made->mesh, recipe, std::move(matrices));
+    x_free = made->mesh.x(Eigen::all, support.free_nodes);
+  }
+
+  std::shared_ptr<const fem::TracedMesh> made;
+  std::vector<Interface> interfaces;
+  fem::SparseMatrix M_s;
+  Support support;
+  Matrix3X x_free;
+};
 
 MeshedBody::MeshedBody(const Recipe& recipe, const Progress& progress)
     : MeshedBody(recipe,
@@ -79,12 +88,14 @@ MeshedBody::MeshedBody(const Recipe& recipe, const Progress& progress)
 MeshedBody::MeshedBody(const Recipe& recipe,
                        std::shared_ptr<const fem::TracedMesh> traced,
                        const Progress& progress)
-    : made(std::move(traced)),
+    : MeshedBody(Parts(recipe, std::move(traced), progress), progress) {}
+
+MeshedBody::MeshedBody(Parts parts, const Progress& progress)
+    : ElasticBody(parts.made->mesh.source, std::move(parts.interfaces),
+                  std::move(parts.support), parts.x_free, progress),
+      made(std::move(parts.made)),
       mesh(made->mesh),
-      interfaces(find_interfaces(mesh, recipe)),
-      support(assemble_support(mesh, recipe, interfaces, M_s, progress)),
-      inverse(support.matrices, support.R,
-              mesh.x(Eigen::all, support.free_nodes), progress) {}
+      M_s(std::move(parts.M_s)) {}
 
 std::optional<MeshLocking> find_locking(const MeshedBody& body,
                                         const Recipe& recipe,

@@ -8,13 +8,11 @@
 #include "limber/common/progress.hpp"
 #include "limber/fem/mesh/mesh.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
-#include "limber/fem/solid/elastic_inverse.hpp"
 #include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
 #include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/recipe.hpp"
-#include "limber/reduction/interfaces.hpp"
-#include "limber/reduction/support.hpp"
+#include "limber/reduction/modal/elastic_body.hpp"
 
 namespace limber::flexbody {
 
@@ -30,22 +28,21 @@ namespace limber::flexbody {
 
 /// A recipe's body with its matrices, for computing modes and static responses.
 /// Part of limber_reduction.
-struct MeshedBody {
+struct MeshedBody : ElasticBody {
   /// @throws InputError naming the file, group or value.
   MeshedBody(const Recipe& recipe, const Progress& progress);
   /// From a mesh that was made for the recipe.
   MeshedBody(const Recipe& recipe,
              std::shared_ptr<const fem::TracedMesh> traced,
              const Progress& progress);
-  MeshedBody(const MeshedBody&) = delete;  // `inverse` points into `support`
-  MeshedBody& operator=(const MeshedBody&) = delete;
 
   std::shared_ptr<const fem::TracedMesh> made;  ///< with its notices
   const fem::Mesh& mesh;
-  std::vector<Interface> interfaces;
   fem::SparseMatrix M_s;  ///< of all nodes [kg]
-  Support support;
-  fem::ElasticInverse inverse;  ///< of the free nodes
+
+ private:
+  struct Parts;
+  MeshedBody(Parts parts, const Progress& progress);
 };
 
 /// Of a mesh of first order, by its lowest modes on the free nodes.

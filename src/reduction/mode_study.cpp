@@ -3,13 +3,16 @@
 
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/flexbody/modal/mode_selection.hpp"
-#include "limber/reduction/selection.hpp"
-#include "limber/reduction/static_modes.hpp"
+#include "limber/reduction/matrices/matrix_body.hpp"
+#include "limber/reduction/matrices/reduce_matrices.hpp"
+#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/selection.hpp"
+#include "limber/reduction/modal/static_modes.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-std::vector<LoadCaseStudy> study_loads(const MeshedBody& body,
+std::vector<LoadCaseStudy> study_loads(const ElasticBody& body,
                                        const Recipe& recipe,
                                        const fem::Eigenmodes& modes,
                                        const Progress& progress) {
@@ -37,7 +40,7 @@ std::vector<LoadCaseStudy> study_loads(const MeshedBody& body,
   return studies;
 }
 
-BaseMotionStudy study_base(const MeshedBody& body,
+BaseMotionStudy study_base(const ElasticBody& body,
                            const fem::Eigenmodes& modes) {
   const Participation participation = calc_base_participation(body, modes);
   return {participation.factors.topRows<3>(),
@@ -45,38 +48,80 @@ BaseMotionStudy study_base(const MeshedBody& body,
           participation.rigid_mass.head<3>()};
 }
 
-fem::Eigenmodes find_eigenmodes(const MeshedBody& body, const Recipe& recipe,
+fem::Eigenmodes find_eigenmodes(const ElasticBody& body, const Recipe& recipe,
                                 const Progress& progress) {
   const int count = recipe.basis.eigenmodes;
   if (count > 0) return fem::find_eigenmodes(body.inverse, count, progress);
   return {VectorX(), MatrixX(body.support.matrices.dof_count(), 0)};
 }
 
+ModeStudy study_body(const ElasticBody& body, const Recipe& recipe,
+                     const fem::Eigenmodes& modes, const Progress& progress) {
+  ModeStudy result;
+  result.clamped = body.support.is_clamped;
+  result.lambda = modes.lambda;
+  result.cases = study_loads(body, recipe, modes, progress);
+  if (result.clamped) result.base = study_base(body, modes);
+  return result;
+}
+
 ModeStudy study(const MeshedBody& body, const Recipe& recipe,
                 const fem::Eigenmodes& modes, const Progress& progress) {
   const fem::MassProperties inertia =
       fem::calc_mass_properties(body.M_s, body.mesh.x);
-  ModeStudy result;
+  ModeStudy result = study_body(body, recipe, modes, progress);
   result.notices = body.made->notices;
   result.mesh_nodes = body.mesh.node_count();
   result.mesh_elements = body.mesh.element_count();
   result.size = body.mesh.size();
   result.mesh_boundary_nodes = body.mesh.boundary_nodes.size();
-  result.clamped = body.support.is_clamped;
   result.mass = inertia.mass;
   result.p_MoBcm_M = inertia.center;
   result.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
-  result.lambda = modes.lambda;
   result.locking = find_locking(body, recipe, modes.lambda, modes.Phi);
-  result.cases = study_loads(body, recipe, modes, progress);
-  if (result.clamped) result.base = study_base(body, modes);
   report(progress, "studied", 1.0);
   return result;
+}
+
+ModeStudy study(const MatrixBody& body, const Recipe& recipe,
+                const fem::Eigenmodes& modes, const Progress& progress) {
+  const MatrixSystem& system = body.part->system;
+  ModeStudy result = study_body(body, recipe, modes, progress);
+  result.notices = system.notices;
+  result.found = system.found;
+  result.mesh_nodes = system.tags.size();
+  result.mesh_boundary_nodes = system.tags.size();
+  result.size = system.size();
+  result.mass = body.part->inertia.mass;
+  result.p_MoBcm_M = body.part->inertia.center;
+  result.inertia = body.part->inertia.J0;
+  report(progress, "studied", 1.0);
+  return result;
+}
+
+template <typename Body>
+ModeStudy study_eigenmodes(const Body& body, const Recipe& recipe,
+                           const Progress& progress) {
+  return study(body, recipe, find_eigenmodes(body, recipe, progress), progress);
+}
+
+template <typename Body>
+ModeStudy study_whole_basis(const Body& body, const Recipe& recipe,
+                            const Progress& progress) {
+  const ReducedBasis basis =
+      join_basis(body, find_eigenmodes(body, recipe, progress),
+                 find_static_modes(body, recipe), recipe.basis.drop_tolerance);
+  return study(body, recipe, {basis.lambda, basis.Phi}, progress);
 }
 
 }  // namespace
 
 PartMass find_part_mass(const Recipe& recipe, const Progress& progress) {
+  if (recipe.mesh.is_matrices()) {
+    const auto part = read_matrix_part(recipe.mesh, progress);
+    return {part->inertia.mass, part->inertia.center, part->system.size(),
+            part->system.notices};
+  }
   const fem::TracedMesh made = read_source(recipe.mesh, progress);
   const fem::StructuralMatrices matrices =
       fem::assemble(made.mesh, find_materials(made.mesh, recipe), progress);
@@ -86,16 +131,19 @@ PartMass find_part_mass(const Recipe& recipe, const Progress& progress) {
 }
 
 ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
-  const MeshedBody body(recipe, progress);
-  return study(body, recipe, find_eigenmodes(body, recipe, progress), progress);
+  if (recipe.mesh.is_matrices())
+    return study_eigenmodes(
+        MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)), recipe,
+        progress);
+  return study_eigenmodes(MeshedBody(recipe, progress), recipe, progress);
 }
 
 ModeStudy study_basis(const Recipe& recipe, const Progress& progress) {
-  const MeshedBody body(recipe, progress);
-  const ReducedBasis basis =
-      join_basis(body, find_eigenmodes(body, recipe, progress),
-                 find_static_modes(body, recipe), recipe.basis.drop_tolerance);
-  return study(body, recipe, {basis.lambda, basis.Phi}, progress);
+  if (recipe.mesh.is_matrices())
+    return study_whole_basis(
+        MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)), recipe,
+        progress);
+  return study_whole_basis(MeshedBody(recipe, progress), recipe, progress);
 }
 
 }  // namespace limber::flexbody

@@ -42,7 +42,8 @@ struct ModeStudy {
   std::vector<LoadCaseStudy> cases;     ///< of the recipe's loads, if any
   std::optional<BaseMotionStudy> base;  ///< of a clamped body
   std::optional<MeshLocking> locking;   ///< of a mesh of first order
-  std::vector<std::string> notices;     ///< of its mesh
+  std::vector<std::string> notices;     ///< of its mesh or matrices
+  std::vector<std::string> found;       ///< of matrices: a line for each file
 };
 
 /// A mesh with its materials, without a reduction.

@@ -9,7 +9,7 @@
 #include "limber/fem/solid/mesh_cut.hpp"
 #include "limber/flexbody/model/piece.hpp"
 #include "limber/flexbody/model/recipe.hpp"
-#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
 
 /// Bodies of a part of a mesh. Part of limber_reduction.
 namespace limber::flexbody {

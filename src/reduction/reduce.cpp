@@ -2,18 +2,23 @@
 #include "limber/reduction/reduce.hpp"
 
 #include <memory>
+#include <set>
 #include <utility>
 
+#include "limber/common/errors.hpp"
+#include "limber/common/files/file_stamp.hpp"
+#include "limber/common/records/digest.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
 #include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/manifold.hpp"
+#include "limber/reduction/matrices/reduce_matrices.hpp"
 #include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/selection.hpp"
+#include "limber/reduction/modal/static_modes.hpp"
 #include "limber/reduction/pieces.hpp"
 #include "limber/reduction/rows.hpp"
-#include "limber/reduction/selection.hpp"
-#include "limber/reduction/static_modes.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -126,11 +131,30 @@ ReducedBody reduce_piece(Pieces& pieces, const Piece& piece,
   return reduce(meshed, taken.recipe, progress);
 }
 
+/// Every file and folder that is given, and the files of a folder.
+std::vector<FileStamp> stamp_files(
+    const std::vector<std::filesystem::path>& paths) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> files;
+  for (const fs::path& path : paths) {
+    files.insert(fs::absolute(path));
+    if (!fs::is_directory(path)) continue;
+    for (const auto& entry : fs::directory_iterator(path))
+      files.insert(fs::absolute(entry.path()));
+  }
+  std::vector<FileStamp> stamps;
+  for (const fs::path& file : files) stamps.push_back(stamp_version(file));
+  return stamps;
+}
+
 MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
                    const Progress& progress) {
   const auto pieces = std::make_shared<Pieces>(made);
   MeshAtHand mesh;
-  mesh.record = {fem::find_mesh_content(made->mesh), made->notices, made->files,
+  mesh.record = {fem::find_mesh_content(made->mesh),
+                 made->notices,
+                 {},
+                 made->files,
                  made->is_repeatable};
   mesh.reduce = [made, progress](const Recipe& recipe) {
     return flexbody::reduce(recipe, made, progress);
@@ -149,9 +173,60 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
   return mesh;
 }
 
+/// Digest of what the tables depend on, apart from the recipe.
+std::string find_content(const MatrixPart& part) {
+  const MatrixSystem& system = part.system;
+  Digest digest;
+  digest.add(std::string("matrices"));
+  digest.add(MatrixX(system.x));
+  for (const std::size_t tag : system.tags) digest.add(tag);
+  for (const fem::MatrixRow& row : system.rows) {
+    digest.add(row.node);
+    digest.add(row.component);
+  }
+  for (const fem::SparseMatrix* A : {&system.K, &system.M, &system.lift})
+    for (Eigen::Index j = 0; j < A->outerSize(); ++j) {
+      digest.add(j);
+      for (fem::SparseMatrix::InnerIterator it(*A, j); it; ++it) {
+        digest.add(it.row());
+        digest.add(it.value());
+      }
+    }
+  for (const fem::MatrixNodeSet& set : system.sets) {
+    digest.add(set.name);
+    for (const int node : set.nodes) digest.add(node);
+  }
+  digest.add(system.triangles.size());
+  for (const auto& nodes : system.triangles)
+    for (const int node : nodes) digest.add(node);
+  return digest.text();
+}
+
+MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
+                   std::vector<FileStamp> files, const Progress& progress) {
+  MeshAtHand mesh;
+  mesh.record = {find_content(*part), part->system.notices, part->system.found,
+                 std::move(files), true};
+  mesh.reduce = [part, progress](const Recipe& recipe) {
+    return reduce_matrices(recipe, part, progress);
+  };
+  mesh.take_piece = [part](const Piece&) -> MeshAtHand {
+    throw InputError(
+        part->system.source +
+        ": matrices cannot be cut into pieces, which needs a mesh");
+  };
+  mesh.advise_pieces = [] {
+    return PieceAdvice{1, "matrices cannot be cut into pieces"};
+  };
+  return mesh;
+}
+
 }  // namespace
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
+  if (recipe.mesh.is_matrices())
+    return reduce_matrices(recipe, read_matrix_part(recipe.mesh, progress),
+                           progress);
   return reduce(MeshedBody(recipe, progress), recipe, progress);
 }
 
@@ -164,6 +239,12 @@ ReducedBody reduce(const Recipe& recipe,
 
 Reducer make_reducer(const Progress& progress) {
   const auto make_mesh = [progress](const MeshSource& source) {
+    if (source.is_matrices()) {
+      // Before they are read, so that a change meanwhile is noticed.
+      std::vector<FileStamp> files = stamp_files(source.matrices.paths);
+      return at_hand(read_matrix_part(source, progress), std::move(files),
+                     progress);
+    }
     return at_hand(
         std::make_shared<const fem::TracedMesh>(read_source(source, progress)),
         progress);

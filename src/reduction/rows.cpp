@@ -7,7 +7,7 @@
 #include <set>
 
 #include "limber/common/errors.hpp"
-#include "limber/reduction/support.hpp"
+#include "limber/reduction/modal/support.hpp"
 
 namespace limber::flexbody {
 std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,

@@ -7,8 +7,8 @@
 #include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
-#include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
 
 /// Nodal rows of a body: those that are stored, and its initial deformation.
 /// Part of limber_reduction.

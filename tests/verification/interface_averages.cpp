@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/nodal_frame.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/reduction/full_body_maker.hpp"
-#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "places.hpp"
 #include "verification/body_reference.hpp"

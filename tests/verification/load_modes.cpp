@@ -6,8 +6,8 @@
 #include <random>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/reduction/modal/static_modes.hpp"
 #include "limber/reduction/reduce.hpp"
-#include "limber/reduction/static_modes.hpp"
 #include "verification/shear_load.hpp"
 
 /// Nodal forces as a source of static-deformation modes, and Krylov terms.

@@ -63,8 +63,10 @@ void find_modes(const ModesOptions& options) {
   const flexbody::ModeStudy study = run_mode_study(
       recipe, options.static_terms.has_value(), make_progress_bar());
   clear_progress_bar();
+  if (!options.json) print_found(study.found);
   print_warnings(study.notices);
-  print_warnings(flexbody::question_material(recipe.materials.front()));
+  for (const flexbody::MaterialRegion& region : recipe.materials)
+    print_warnings(flexbody::question_material(region));
   print_warnings(flexbody::question_size(study.size, study.mass));
   if (const auto text = describe_locking(study.locking))
     print_warnings({*text});
@@ -81,9 +83,10 @@ void add_modes(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ModesOptions>();
   CLI::App* command = app.add_subcommand(
       "modes",
-      "Eigenmodes of a mesh (.msh) or geometry (.geo, .step), and what each "
-      "carries of a load or of a clamped body's base motion");
-  add_mesh_options(*command, options->mesh);
+      "Eigenmodes of a mesh (.msh), geometry (.geo, .step) or of stiffness and "
+      "mass matrices, and what each carries of a load or of a clamped body's "
+      "base motion");
+  add_model_options(*command, options->mesh);
   command->add_option("--clamp", options->clamps,
                       "Group that is fixed; may be given again");
   command->add_option("--force", options->forces,

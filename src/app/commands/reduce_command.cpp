@@ -86,11 +86,13 @@ void warn(const flexbody::ReducedBody& body) {
 }
 
 void print_body_json(const flexbody::ReducedBody& body,
+                     const std::vector<std::string>& found,
                      const std::string& file) {
   Json json = Json{{"file", file},
                    {"nodes", body.mesh_nodes},
                    {"modes", body.mode_count()},
                    {"mass", body.mass}};
+  if (!found.empty()) json["found"] = found;
   add_choices(body, json);
   fmt::print("{}\n", to_text(json));
 }
@@ -107,13 +109,15 @@ void reduce(const ReduceOptions& options) {
       make_reducer(make_progress_bar()).make_mesh(recipe.mesh);
   const flexbody::ReducedBody body = mesh.reduce(recipe);
   clear_progress_bar();
+  if (!options.json) print_found(mesh.record.found);
   print_warnings(mesh.record.notices);
-  print_warnings(flexbody::question_material(recipe.materials.front()));
+  for (const flexbody::MaterialRegion& region : recipe.materials)
+    print_warnings(flexbody::question_material(region));
   print_warnings(flexbody::question_body(body));
   warn(body);
   flexbody::write_body(body, options.output);
   if (options.json) {
-    print_body_json(body, options.output);
+    print_body_json(body, mesh.record.found, options.output);
   } else {
     print_text(body, options.output);
   }
@@ -124,8 +128,10 @@ void reduce(const ReduceOptions& options) {
 void add_reduce(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ReduceOptions>();
   CLI::App* command = app.add_subcommand(
-      "reduce", "Reduce a mesh to a body that needs no mesh any more");
-  add_mesh_options(*command, options->mesh);
+      "reduce",
+      "Reduce a mesh, or stiffness and mass matrices, to a body that needs "
+      "neither any more");
+  add_model_options(*command, options->mesh);
   command->add_option("--output,-o", options->output, "Reduced body (HDF5)")
       ->required();
   command->add_option("--interface", options->interfaces,

@@ -39,6 +39,26 @@ void check(const MeshOptions& options) {
 
 }  // namespace
 
+void add_model_options(CLI::App& command, MeshOptions& options) {
+  add_mesh_options(command, options);
+  // What a mesh needs is not needed then.
+  const auto release = [&command](const std::string&) {
+    for (const char* name :
+         {"mesh", "--youngs-modulus", "--poisson-ratio", "--density"})
+      command.get_option(name)->required(false);
+  };
+  command
+      .add_option("--matrices", options.matrices,
+                  "Stiffness and mass matrix of a finite-element model, in "
+                  "place of a mesh and its material: a folder with K.mtx, "
+                  "M.mtx and nodes.csv, or these files; lengths in --unit, "
+                  "forces in N, times in s")
+      ->each(release);
+  command.add_option("--mass", options.mass,
+                     "Mass of the model of --matrices, which its program "
+                     "prints: it checks their unit [kg]");
+}
+
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option("mesh", options.file, "Mesh (.msh) or geometry (.geo, .step)")
@@ -61,7 +81,50 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
   add_unit(command, options.unit);
 }
 
+namespace {
+
+void check_matrices(const MeshOptions& options) {
+  std::vector<std::string> problems;
+  const auto require = [&](bool fine, const std::string& text) {
+    if (!fine) problems.push_back(text);
+  };
+  const flexbody::Material& m = options.material;
+  require(options.file.empty(),
+          fmt::format("'{}' is a mesh, and --matrices is given; keep one",
+                      options.file));
+  require(m.youngs_modulus == 0.0 && m.poisson_ratio == 0.0 && m.density == 0.0,
+          "--youngs-modulus, --poisson-ratio and --density go with a mesh; "
+          "--matrices have their material");
+  require(options.size == 0.0 && options.order == 0,
+          "--size and --order go with a mesh");
+  require(options.mass > 0.0 && std::isfinite(options.mass),
+          fmt::format("--mass is {} kg; --matrices need the mass of the whole "
+                      "model, which its program prints, > 0",
+                      options.mass));
+  require(options.unit >= 0.0 && std::isfinite(options.unit),
+          fmt::format("--unit is {} m; expected > 0", options.unit));
+  if (!problems.empty()) throw InputError(problems);
+}
+
+flexbody::Recipe make_matrix_recipe(const MeshOptions& options) {
+  check_matrices(options);
+  flexbody::Recipe recipe;
+  flexbody::MeshSource& source = recipe.mesh;
+  source.matrices.paths = {options.matrices.begin(), options.matrices.end()};
+  source.matrices.mass = options.mass;
+  source.unit = options.unit;
+  source.file = source.matrices.paths.front().lexically_normal();
+  if (!source.file.has_filename()) source.file = source.file.parent_path();
+  recipe.name = source.file.stem().string();
+  return recipe;
+}
+
+}  // namespace
+
 flexbody::Recipe make_recipe(const MeshOptions& options) {
+  if (!options.matrices.empty()) return make_matrix_recipe(options);
+  if (options.mass != 0.0)
+    throw InputError("--mass goes with --matrices; a mesh has its density");
   check(options);
   flexbody::Recipe recipe;
   recipe.mesh.file = options.file;
@@ -71,6 +134,10 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   recipe.name = recipe.mesh.file.stem().string();
   recipe.materials = {{"", options.material}};
   return recipe;
+}
+
+void print_found(const std::vector<std::string>& found) {
+  for (const std::string& line : found) fmt::print("found {}\n", line);
 }
 
 }  // namespace limber::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "limber/flexbody/model/recipe.hpp"
 
@@ -11,9 +12,11 @@ class App;
 
 namespace limber::app {
 
-/// Command-line options of a mesh and one material.
+/// Command-line options of a mesh and one material, or of matrices.
 struct MeshOptions {
   std::string file;
+  std::vector<std::string> matrices;  ///< a folder, or files; empty: a mesh
+  double mass = 0.0;                  ///< of the matrices, as stated [kg]
   flexbody::Material material;
   double size = 0.0;  ///< element size [mesh units]; 0: the file's
   int order = 0;      ///< of elements, 1 to 3; 0: the file's, else 2 [-]
@@ -22,8 +25,15 @@ struct MeshOptions {
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
-/// Recipe of the mesh and its material only.
-/// @throws InputError for a material outside its range.
+/// The same, or matrices in place of mesh and material.
+void add_model_options(CLI::App& command, MeshOptions& options);
+
+/// Recipe of the mesh and its material, or of the matrices, only.
+/// @throws InputError for a material or a mass outside its range, and for
+/// options of a mesh with matrices.
 [[nodiscard]] flexbody::Recipe make_recipe(const MeshOptions& options);
+
+/// What was found in the files of matrices, a line each.
+void print_found(const std::vector<std::string>& found);
 
 }  // namespace limber::app

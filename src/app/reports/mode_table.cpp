@@ -149,6 +149,7 @@ Json to_json(const ModeStudy& study) {
             {"inertia", to_json(study.inertia)},
             {"eigenvalues", to_json(study.lambda)},
             {"frequencies_hz", to_json(frequencies(study))}};
+  if (!study.found.empty()) json["found"] = study.found;
   if (study.locking) json["locking"] = to_json(*study.locking);
   if (!study.cases.empty()) json["load_cases"] = Json::array();
   for (const LoadCaseStudy& item : study.cases)
@@ -159,8 +160,12 @@ Json to_json(const ModeStudy& study) {
 
 void print_text(const ModeStudy& study) {
   const Vector3& c = study.p_MoBcm_M;
-  fmt::print("{} nodes ({} on the boundary), {} elements\n", study.mesh_nodes,
-             study.mesh_boundary_nodes, study.mesh_elements);
+  if (study.mesh_elements > 0) {
+    fmt::print("{} nodes ({} on the boundary), {} elements\n", study.mesh_nodes,
+               study.mesh_boundary_nodes, study.mesh_elements);
+  } else {  // matrices
+    fmt::print("{} nodes\n", study.mesh_nodes);
+  }
   fmt::print("{:.4g} x {:.4g} x {:.4g} m, ", study.size.x(), study.size.y(),
              study.size.z());
   fmt::print("mass {:.6g} kg, centre of mass ({:.6g}, {:.6g}, {:.6g}) m\n",

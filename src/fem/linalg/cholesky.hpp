@@ -9,7 +9,8 @@
 
 namespace limber::fem {
 
-/// Fill-reducing order of the nodes: nested dissection of M_s's pattern.
+/// Fill-reducing order of the rows, of nodes for a solid's M_s: nested
+/// dissection of the pattern of the lower triangle.
 [[nodiscard]] std::vector<int> order_nodes(const SparseMatrix& M_s);
 
 /// Fill-reducing order of the degrees of freedom: nested dissection of the

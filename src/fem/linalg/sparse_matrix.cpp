@@ -7,8 +7,17 @@
 namespace limber::fem {
 
 MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
-  LIMBER_EXPECT(X.rows() == 3 * M_s.cols());
   MatrixX Y(X.rows(), X.cols());
+  if (X.rows() == M_s.cols()) {
+    parallel_ranges(static_cast<std::size_t>(X.cols()), [&](std::size_t begin,
+                                                            std::size_t end) {
+      const auto first = static_cast<Eigen::Index>(begin);
+      const auto count = static_cast<Eigen::Index>(end) - first;
+      Y.middleCols(first, count).noalias() = M_s * X.middleCols(first, count);
+    });
+    return Y;
+  }
+  LIMBER_EXPECT(X.rows() == 3 * M_s.cols());
   // Column j of the symmetric M_s is its row j: each node gathers alone.
   parallel_ranges(static_cast<std::size_t>(M_s.cols()),
                   [&](std::size_t begin, std::size_t end) {

@@ -10,7 +10,9 @@ namespace limber::fem {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// (M_s (x) I_3) X for 3N x k columns. Same result for any thread count.
+/// M X. Same result for any thread count.
+/// @param M_s both triangles: a scalar nodal mass, N x N for 3N rows of X,
+/// M = M_s (x) I_3; or M itself, as many rows as X
 [[nodiscard]] MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X);
 
 /// K X, K given by its lower triangle.

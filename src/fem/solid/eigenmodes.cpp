@@ -15,8 +15,26 @@
 namespace limber::fem {
 namespace {
 
-MatrixX dense_mass(const SparseMatrix& M_s) {
-  return multiply_mass(M_s, MatrixX::Identity(3 * M_s.cols(), 3 * M_s.cols()));
+MatrixX dense_mass(const StructuralMatrices& matrices) {
+  const Eigen::Index dofs = matrices.dof_count();
+  return multiply_mass(matrices.M_s, MatrixX::Identity(dofs, dofs));
+}
+
+/// Elastic modes at most: a row without mass has none.
+Eigen::Index count_elastic(const ElasticInverse& inverse) {
+  const StructuralMatrices& full = inverse.matrices();
+  Eigen::Index moving = full.dof_count();
+  if (!full.is_scalar_mass())
+    moving -= (VectorX(full.M_s.diagonal()).array() == 0.0).count();
+  return moving - inverse.rigid_count();
+}
+
+[[noreturn]] void refuse_count(Eigen::Index count, Eigen::Index dofs,
+                               Eigen::Index elastic) {
+  throw InputError(fmt::format(
+      "{} eigenmodes asked for, but the mesh has {} free degrees of freedom "
+      "and so only {} elastic modes. Ask for fewer or refine the mesh.",
+      count, dofs, elastic));
 }
 
 /// Rayleigh-Ritz on K and M themselves: free of the factor's roundoff.
@@ -36,7 +54,7 @@ Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   const StructuralMatrices& full = inverse.matrices();
   const MatrixX lower = MatrixX(full.K);
   const MatrixX K = lower.selfadjointView<Eigen::Lower>();
-  const MatrixX M = dense_mass(full.M_s);
+  const MatrixX M = dense_mass(full);
   const auto all = dense::find_eigenpairs(K, M);
   const Eigen::Index rigid = inverse.rigid_count();
   Eigenmodes modes{all.values.segment(rigid, count),
@@ -51,6 +69,23 @@ Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   return modes;
 }
 
+/// The same for a mass that may be singular, by M v = theta (K - s M) v, theta
+/// = 1 / (lambda - s): motions without mass have theta = 0.
+Eigenmodes solve_dense_any_mass(const ElasticInverse& inverse,
+                                Eigen::Index count) {
+  constexpr double kMassless = 1e-13;  // of the largest
+  const StructuralMatrices& full = inverse.matrices();
+  const MatrixX lower = MatrixX(shift_stiffness(full, inverse.shift()));
+  const MatrixX A = lower.selfadjointView<Eigen::Lower>();
+  const auto all = dense::find_eigenpairs(dense_mass(full), A);
+  const double least = kMassless * all.values[all.values.size() - 1];
+  const Eigen::Index rank = (all.values.array() > least).count();
+  const Eigen::Index elastic = rank - inverse.rigid_count();
+  if (count > elastic) refuse_count(count, full.dof_count(), elastic);
+  const Eigen::Index taken = count + inverse.rigid_count();
+  return polish(inverse, all.vectors.rightCols(taken).leftCols(count));
+}
+
 /// @throws NumericalError. Roundoff in K phi is eps |K| |phi| for any lambda,
 /// so the tolerance has a part of that size.
 void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
@@ -58,7 +93,8 @@ void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
   const StructuralMatrices& full = inverse.matrices();
   const MatrixX M_Phi = multiply_mass(full.M_s, modes.Phi);
   const MatrixX residual =
-      multiply_stiffness(full.K, modes.Phi) - M_Phi * modes.lambda.asDiagonal();
+      inverse.project_load(multiply_stiffness(full.K, modes.Phi)) -
+      M_Phi * modes.lambda.asDiagonal();
   const double roundoff = 1e3 * std::numeric_limits<double>::epsilon() *
                           full.K.diagonal().maxCoeff();
   for (Eigen::Index i = 0; i < modes.lambda.size(); ++i) {
@@ -140,7 +176,11 @@ VectorX random_motion(const ShiftedInverse& op, const ElasticInverse& inverse) {
   std::normal_distribution<double> normal;
   MatrixX x(op.rows(), 1);
   for (double& value : x.reshaped()) value = normal(random);
-  return op.deflate(inverse.project_motion(x));
+  x = op.deflate(inverse.project_motion(x));
+  if (inverse.matrices().is_scalar_mass()) return x;
+  // Into the space without motions that have no mass.
+  return op.deflate(
+      inverse.solve_shifted(multiply_mass(inverse.matrices().M_s, x)));
 }
 
 /// The `count` lowest modes that are M-orthogonal to the known ones.
@@ -148,8 +188,7 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
                Eigen::Index count, const Progress& progress) {
   constexpr double kTolerance = 1e-11;
   constexpr Eigen::Index kRestarts = 1000;
-  const Eigen::Index room =
-      inverse.matrices().dof_count() - inverse.rigid_count() - known.cols();
+  const Eigen::Index room = count_elastic(inverse) - known.cols();
   const Eigen::Index width = std::min(2 * count + 20, room);
   ShiftedInverse op(inverse, known, [&](int calls) {
     // About two solves a column of the width, empirically.
@@ -171,7 +210,11 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
         fmt::format("eigenmodes: {} of {} converged in {} restarts; ask for "
                     "fewer.{}",
                     converged, count, kRestarts, inverse.conditioning()));
-  return solver.eigenvectors();
+  if (inverse.matrices().is_scalar_mass()) return solver.eigenvectors();
+  // The recursion does not see what has no mass and lets its roundoff grow
+  // (Nour-Omid, Parlett, Ericsson and Jensen, Math. Comp. 48, 1987).
+  return inverse.solve_shifted(
+      multiply_mass(inverse.matrices().M_s, solver.eigenvectors()));
 }
 
 /// One Krylov space finds repeated eigenvalues only through roundoff. So modes
@@ -183,7 +226,7 @@ Eigenmodes solve_lanczos(const ElasticInverse& inverse, Eigen::Index count,
   Eigenmodes found =
       polish(inverse, search(inverse, MatrixX(dofs, 0), count, progress));
   for (Eigen::Index more = 1;; more *= 2) {
-    const Eigen::Index left = dofs - inverse.rigid_count() - found.Phi.cols();
+    const Eigen::Index left = count_elastic(inverse) - found.Phi.cols();
     more = std::min(more, left - 1);
     const MatrixX rest = search(inverse, found.Phi, more, progress);
     const double lowest = polish(inverse, rest).lambda[0];
@@ -201,17 +244,15 @@ Eigenmodes find_eigenmodes(const ElasticInverse& inverse, int count,
                            const Progress& progress) {
   LIMBER_EXPECT(count >= 0);
   const Eigen::Index dofs = inverse.matrices().dof_count();
-  const Eigen::Index elastic = dofs - inverse.rigid_count();
-  if (count > elastic)
-    throw InputError(fmt::format(
-        "{} eigenmodes asked for, but the mesh has {} free degrees of freedom "
-        "and so only {} elastic modes. Ask for fewer or refine the mesh.",
-        count, dofs, elastic));
+  const Eigen::Index elastic = count_elastic(inverse);
+  if (count > elastic) refuse_count(count, dofs, elastic);
   if (count == 0) return {VectorX(0), MatrixX(dofs, 0)};
   // Dense costs dofs^3, Lanczos about dofs count^2.
   const bool is_dense = dofs <= 600 || (dofs <= 2000 && 10 * count > elastic) ||
                         3 * count > elastic;
-  Eigenmodes modes = is_dense ? solve_dense(inverse, count)
+  const auto solve =
+      inverse.matrices().is_scalar_mass() ? solve_dense : solve_dense_any_mass;
+  Eigenmodes modes = is_dense ? solve(inverse, count)
                               : solve_lanczos(inverse, count, progress);
   check_residuals(inverse, modes);
   return modes;

@@ -114,6 +114,18 @@ ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
   report(progress, "factorising", 1.0);
 }
 
+ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
+                               const MatrixX& R, double shift,
+                               std::string conditioning)
+    : matrices_(&matrices),
+      R_(R),
+      MR_(multiply_mass(matrices.M_s, R)),
+      shift_(shift),
+      order_(order_nodes(shift_stiffness(matrices, shift))),
+      conditioning_(std::move(conditioning)),
+      factor_(shift_stiffness(matrices, shift), order_, "stiffness matrix",
+              conditioning_) {}
+
 MatrixX ElasticInverse::project_motion(const MatrixX& X) const {
   return remove_span(X, R_, MR_);
 }

@@ -23,8 +23,9 @@ namespace limber::fem {
 ///            `matrices` if there is one (fem/solid/stiffness_product.hpp), so
 ///            that the solution is accurate even if the factor has only a few
 ///            digits.
-/// Limits     The six rigid motions must be the whole null space of K. Bodies
-///            up to some 1000 times as long as thick.
+/// Limits     The six rigid motions must be the whole null space of K, which
+///            is read as P^T K P: of a K that is rounded they need only nearly
+///            be. Bodies up to some 1000 times as long as thick.
 class ElasticInverse {
  public:
   /// @param R 3N x 6 M-orthonormal rigid modes; 3N x 0 for a clamped body
@@ -32,6 +33,11 @@ class ElasticInverse {
   ///          sets the shift for any unit of length
   ElasticInverse(const StructuralMatrices& matrices, const MatrixX& R,
                  const Matrix3X& x, const Progress& progress = {});
+
+  /// Of any model with its shift: s < 0 for a free body, 0 for a clamped one.
+  /// @param conditioning causes of ill-conditioning, for errors
+  ElasticInverse(const StructuralMatrices& matrices, const MatrixX& R,
+                 double shift, std::string conditioning);
 
   /// P (K - s M)^-1 P^T F, for 3N x k loads. [m for N]
   [[nodiscard]] MatrixX solve_shifted(const MatrixX& F) const;

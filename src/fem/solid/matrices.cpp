@@ -21,6 +21,11 @@ MatrixX multiply_stiffness(const StructuralMatrices& matrices,
 SparseMatrix shift_stiffness(const StructuralMatrices& matrices, double shift) {
   SparseMatrix shifted = matrices.K;
   if (shift == 0.0) return shifted;
+  if (!matrices.is_scalar_mass()) {
+    const SparseMatrix lower = matrices.M_s.triangularView<Eigen::Lower>();
+    shifted -= shift * lower;
+    return shifted;
+  }
   for (Eigen::Index j = 0; j < matrices.node_count(); ++j)
     for (SparseMatrix::InnerIterator it(matrices.M_s, j); it; ++it)
       if (it.row() >= j)

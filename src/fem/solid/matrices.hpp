@@ -11,15 +11,19 @@ namespace limber::fem {
 
 class StiffnessProduct;
 
-/// A solid's matrices. Degree of freedom 3 n + c is component c of node n.
+/// A body's matrices. Of a solid, degree of freedom 3 n + c is component c of
+/// node n, and its mass is scalar. Of any other model, M_s is M itself.
 struct StructuralMatrices {
-  SparseMatrix
-      M_s;         ///< N x N scalar mass, both triangles; M = M_s (x) I_3 [kg]
-  SparseMatrix K;  ///< 3N x 3N stiffness, lower triangle only [N/m]
+  SparseMatrix M_s;  ///< both triangles: N x N scalar mass, M = M_s (x) I_3
+                     ///< [kg]; or M, as large as K
+  SparseMatrix K;    ///< stiffness, lower triangle only [N/m]
   /// Products with K without the roundoff of its entries; null if only the
   /// matrix is available.
   std::shared_ptr<const StiffnessProduct> product = nullptr;
 
+  /// Whether M = M_s (x) I_3.
+  [[nodiscard]] bool is_scalar_mass() const { return M_s.cols() != K.cols(); }
+  /// Of a solid.
   [[nodiscard]] Eigen::Index node_count() const { return M_s.cols(); }
   [[nodiscard]] Eigen::Index dof_count() const { return K.cols(); }
 };
@@ -30,11 +34,11 @@ struct StructuralMatrices {
 [[nodiscard]] MatrixX multiply_stiffness(const StructuralMatrices& matrices,
                                          const MatrixX& X);
 
-/// K - shift (M_s (x) I_3), lower triangle; shift in [rad^2/s^2].
+/// K - shift M, lower triangle; shift in [rad^2/s^2].
 [[nodiscard]] SparseMatrix shift_stiffness(const StructuralMatrices& matrices,
                                            double shift);
 
-/// Matrices of the nodes listed (sorted), all others held fixed.
+/// Matrices of a solid's nodes listed (sorted), all others held fixed.
 [[nodiscard]] StructuralMatrices restrict_to(const StructuralMatrices& matrices,
                                              const std::vector<int>& nodes);
 

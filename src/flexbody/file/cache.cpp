@@ -188,6 +188,9 @@ std::string recipe_key(const Recipe& recipe, const Piece& piece) {
   digest.add(recipe.mesh.size);
   digest.add(recipe.mesh.order);
   digest.add(recipe.mesh.unit);
+  digest.add(recipe.mesh.matrices.mass);
+  for (const std::filesystem::path& path : recipe.mesh.matrices.paths)
+    digest.add(std::filesystem::absolute(path).string());
   digest.add(recipe.stress);
   add_request(recipe, digest);
   return digest.text();

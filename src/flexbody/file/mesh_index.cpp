@@ -13,7 +13,7 @@
 namespace limber::flexbody {
 namespace {
 
-constexpr Seal kSeal = {kMeshRecord, 1};
+constexpr Seal kSeal = {kMeshRecord, 2};
 
 /// One request and its result.
 struct Entry {
@@ -25,7 +25,7 @@ struct Entry {
 void exchange(Wire& wire, Entry& entry) {
   MeshRecord& record = entry.record;
   wire(entry.request, entry.mesher, record.content, record.notices,
-       record.files);
+       record.found, record.files);
 }
 
 // A geometry refers to files relative to its folder, so symbolic links are
@@ -38,6 +38,9 @@ std::string find_request(const MeshSource& mesh) {
   digest.add(mesh.size);
   digest.add(mesh.order);
   digest.add(mesh.unit);
+  digest.add(mesh.matrices.mass);
+  for (const std::filesystem::path& path : mesh.matrices.paths)
+    digest.add(std::filesystem::absolute(path).string());
   return digest.text();
 }
 

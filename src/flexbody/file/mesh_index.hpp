@@ -20,8 +20,9 @@ struct MeshRecord {
   std::string content;  ///< digest of its nodes, elements and groups
   /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
-  std::vector<FileStamp> files;  ///< opened or searched for in the making
-  bool is_repeatable = false;    ///< whether it depends on these only
+  std::vector<std::string> found;  ///< of matrices: a line for each file
+  std::vector<FileStamp> files;    ///< opened or searched for in the making
+  bool is_repeatable = false;      ///< whether it depends on these only
 };
 
 /// The record in `folder` of the mesh that `mesh` requests, if each of its

@@ -89,12 +89,19 @@ MatrixX calc_modal_compliance(const MatrixX& modal_loads,
 Participation calc_participation(const MatrixX& Phi, const SparseMatrix& M_s,
                                  const Matrix3X& x) {
   LIMBER_EXPECT(x.cols() == M_s.cols() && Phi.rows() == 3 * x.cols());
-  const MatrixX motions = rigid_motions(x);
+  return calc_base_participation(Phi, M_s, rigid_motions(x));
+}
+
+Participation calc_base_participation(const MatrixX& Phi,
+                                      const SparseMatrix& M_s,
+                                      const MatrixX& motions) {
+  LIMBER_EXPECT(motions.rows() == Phi.rows() && motions.cols() <= 6);
   const MatrixX loads = multiply_mass(M_s, motions);
-  Participation participation;
-  participation.factors = loads.transpose() * Phi;
+  Participation participation{Matrix6X::Zero(6, Phi.cols()), {}, {}};
+  participation.factors.topRows(motions.cols()) = loads.transpose() * Phi;
   participation.effective_mass = participation.factors.cwiseAbs2();
-  participation.rigid_mass =
+  participation.rigid_mass.setZero();
+  participation.rigid_mass.head(motions.cols()) =
       motions.cwiseProduct(loads).colwise().sum().transpose();
   return participation;
 }

@@ -61,6 +61,13 @@ struct Participation {
     const MatrixX& Phi, const Eigen::SparseMatrix<double>& M_s,
     const Matrix3X& x);
 
+/// The same of any motions of the base; rows of others are zero.
+/// @param M_s as multiply_mass @param motions of the degrees of freedom, at
+/// most six columns: translations along x, y, z first
+[[nodiscard]] Participation calc_base_participation(
+    const MatrixX& Phi, const Eigen::SparseMatrix<double>& M_s,
+    const MatrixX& motions);
+
 /// Order in which modes are taken until their shares reach the threshold.
 enum class SelectionOrder {
   largest_first,  ///< as few modes as possible (the report's Table 2)

@@ -54,7 +54,6 @@ Eigenpairs find_eigenpairs(const MatrixX& stiffness) {
 
 MatrixX orthonormalise(const MatrixX& vectors, const SparseMatrix& M_s,
                        const MatrixX& R, double drop_tolerance) {
-  LIMBER_EXPECT(vectors.rows() == 3 * M_s.cols());
   LIMBER_EXPECT(R.rows() == vectors.rows());
   // Rigid modes come first, so that one Gram-Schmidt loop also projects them
   // out.

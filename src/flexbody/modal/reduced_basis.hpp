@@ -17,7 +17,7 @@ struct ReducedBasis {
 /// M-orthonormal columns that span `vectors` without the rigid modes `R` (3N x
 /// 6 or 3N x 0, M-orthonormal). A vector whose remainder has less than
 /// `drop_tolerance` [-] of its M-norm is omitted.
-/// @param M_s N x N nodal mass, both triangles [kg]
+/// @param M_s as multiply_mass
 /// @throws NumericalError for a vector that is not finite.
 [[nodiscard]] MatrixX orthonormalise(const MatrixX& vectors,
                                      const Eigen::SparseMatrix<double>& M_s,

@@ -55,6 +55,22 @@ InterfaceMotion::InterfaceMotion(std::vector<int> nodes, const VectorX& weights,
   }
 }
 
+InterfaceMotion InterfaceMotion::of_frame(int node, int rotation,
+                                          const Vector3& p,
+                                          const Matrix3X& axes,
+                                          Eigen::Index count) {
+  InterfaceMotion motion;
+  motion.nodes_ = {node, rotation};
+  motion.map_ = Matrix6X::Zero(6, 6);
+  motion.map_.topLeftCorner<3, 3>().setIdentity();
+  motion.map_.bottomRightCorner<3, 3>() = axes * axes.transpose();
+  motion.dofs_ = 3 * count;
+  motion.p_ = p;
+  motion.axes_ = axes;
+  motion.rank_ = static_cast<int>(axes.cols());
+  return motion;
+}
+
 Matrix6X InterfaceMotion::apply(const MatrixX& fields) const {
   LIMBER_EXPECT(fields.rows() == dofs_);
   Matrix6X motion = Matrix6X::Zero(6, fields.cols());

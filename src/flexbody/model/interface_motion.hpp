@@ -33,6 +33,16 @@ class InterfaceMotion {
   InterfaceMotion(std::vector<int> nodes, const VectorX& weights,
                   const Matrix3X& moments, const Matrix3X& x, double body_size);
 
+  /// The motion of one node with rotations of its own.
+  /// @param node its index @param rotation index of the three rows that are its
+  /// rotation vector @param p its position [m]
+  /// @param axes about which it can rotate, orthonormal, 3 x 0, 2 or 3
+  /// @param count of nodes and such triples in fields
+  [[nodiscard]] static InterfaceMotion of_frame(int node, int rotation,
+                                                const Vector3& p,
+                                                const Matrix3X& axes,
+                                                Eigen::Index count);
+
   [[nodiscard]] const Vector3& mean_point() const { return p_; }  ///< [m]
   [[nodiscard]] int rotation_rank() const { return rank_; }       ///< 0, 2 or 3
   /// Orthonormal axes about which rotation is defined, 3 x rank.
@@ -46,6 +56,8 @@ class InterfaceMotion {
   [[nodiscard]] MatrixX spread(const Matrix6X& wrenches) const;
 
  private:
+  InterfaceMotion() = default;
+
   std::vector<int> nodes_;
   Matrix6X map_;  // 6 x 3 n
   Eigen::Index dofs_ = 0;

@@ -7,8 +7,8 @@
 
 namespace limber::flexbody {
 
-/// (M_s (x) I_3) X for 3N x k columns.
-/// @param M_s N x N, both triangles [kg]
+/// M X. @param M_s both triangles: a scalar nodal mass, N x N for 3N rows of X,
+/// M = M_s (x) I_3 [kg]; or M itself, as many rows as X
 [[nodiscard]] MatrixX multiply_mass(const Eigen::SparseMatrix<double>& M_s,
                                     const MatrixX& X);
 

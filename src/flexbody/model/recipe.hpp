@@ -32,12 +32,25 @@ struct MaterialRegion {
   Material material;
 };
 
+/// A finite-element model given by its matrices, in place of a mesh.
+struct MatrixSource {
+  std::vector<std::filesystem::path>
+      paths;          ///< a folder, or files; empty: none
+  double mass = 0.0;  ///< of the whole model, to check its unit, > 0 [kg]
+};
+
 /// Where the mesh comes from.
 struct MeshSource {
   std::filesystem::path file;  ///< .msh, .geo or .step/.stp
   double size = 0.0;  ///< target element size [mesh units]; 0: the file's
   int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's, or 2 [-]
   double unit = 0.0;  ///< metres per mesh unit [m]; 0: the file's, or 1
+  /// With paths, the body is of these matrices: `file` is their first path, and
+  /// the recipe has no material. Forces are in N, times in s, masses so in
+  /// N s^2 per `unit`.
+  MatrixSource matrices = {};
+
+  [[nodiscard]] bool is_matrices() const { return !matrices.paths.empty(); }
 };
 
 /// Weights of a selection's nodes in a load or an average.

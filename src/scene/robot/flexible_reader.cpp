@@ -38,6 +38,23 @@ void read_mesh(XmlElement& element, const std::filesystem::path& folder,
   read_unit(element, mesh.unit);
 }
 
+/// <matrices path="..." mass="..."/>: a folder, or files.
+void read_matrices(XmlElement& element, const std::filesystem::path& folder,
+                   flexbody::MeshSource& source) {
+  const auto add = [&](const std::string& path) {
+    source.matrices.paths.push_back((folder / path).lexically_normal());
+  };
+  add(element.required_text("path"));
+  for (const char* name :
+       {"stiffness_file", "mass_file", "nodes_file", "equations_file"}) {
+    if (const auto path = element.text(name)) add(*path);
+  }
+  source.file = source.matrices.paths.front();
+  if (!source.file.has_filename()) source.file = source.file.parent_path();
+  source.matrices.mass = element.required_number("mass", kPositive);
+  read_unit(element, source.unit);
+}
+
 /// <material file="..."/>: an Akantu material file.
 std::vector<flexbody::MaterialRegion> read_material_file(
     XmlElement& element, const std::filesystem::path& file) {
@@ -165,6 +182,9 @@ void read_pieces(XmlElement& element, FlexibleLink& link) {
   } else {
     link.pieces = element.integer("pieces", 1, kMostPieces).value_or(1);
   }
+  if (link.mesh.is_matrices() && link.pieces != 1) {
+    element.fail("'pieces' cuts a <mesh>; matrices stay whole");
+  }
   if (link.reduced_file.empty() || link.pieces == 1) return;
   element.fail(
       "'pieces' cuts a <mesh>; a saved body is one body and stays whole");
@@ -191,13 +211,19 @@ void check_saved(const XmlElement& element, const FlexibleLink& link,
   if (counts.contains("basis")) refuse("basis");
 }
 
-void check_whole(const XmlElement& element, const FlexibleLink& link) {
-  const bool meshed = !link.mesh.file.empty();
-  if (meshed == !link.reduced_file.empty()) {
+void check_whole(const XmlElement& element, const FlexibleLink& link,
+                 const Counts& counts) {
+  const auto count = [&](const char* tag) { return counts.contains(tag); };
+  if (count("mesh") + count("matrices") + count("reduced") != 1) {
     element.fail(
-        "needs exactly one of <mesh file=.../> and <reduced file=.../>");
+        "needs exactly one of <mesh file=.../>, <matrices path=.../> and "
+        "<reduced file=.../>");
   }
-  if (meshed && link.materials.empty()) {
+  if (count("matrices") && !link.materials.empty()) {
+    element.fail(
+        "has a <material>, which goes with <mesh>; matrices have their own");
+  }
+  if (count("mesh") && link.materials.empty()) {
     element.fail(
         "needs a <material youngs_modulus=... poisson_ratio=... "
         "density=.../> for its mesh");
@@ -212,6 +238,7 @@ FlexibleLink read_flexible(XmlElement& element,
   Counts counts;
   std::map<std::string, XmlElement::Reader> readers = {
       {"mesh", [&](XmlElement& e) { read_mesh(e, folder, link.mesh); }},
+      {"matrices", [&](XmlElement& e) { read_matrices(e, folder, link.mesh); }},
       {"reduced",
        [&](XmlElement& e) {
          link.reduced_file =
@@ -241,7 +268,8 @@ FlexibleLink read_flexible(XmlElement& element,
          if (link.interface_of_joint.emplace(joint, interface).second) return;
          e.fail(fmt::format("for joint '{}' is given twice", joint));
        }}};
-  for (const char* tag : {"mesh", "reduced", "origin", "damping", "basis"}) {
+  for (const char* tag :
+       {"mesh", "matrices", "reduced", "origin", "damping", "basis"}) {
     readers[tag] = [&counts, tag, read = readers[tag]](XmlElement& e) {
       ++counts[tag];
       read(e);
@@ -249,7 +277,7 @@ FlexibleLink read_flexible(XmlElement& element,
   }
   element.read_children(readers);
   check_counts(element, counts);
-  check_whole(element, link);
+  check_whole(element, link, counts);
   read_pieces(element, link);
   if (!link.reduced_file.empty()) check_saved(element, link, counts);
   return link;

@@ -10,7 +10,7 @@
 #include "limber/common/dense/singular_values.hpp"
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/reduction/krylov.hpp"
+#include "limber/reduction/modal/krylov.hpp"
 #include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody::departure_test {

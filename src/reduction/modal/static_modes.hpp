@@ -6,7 +6,7 @@
 #include "limber/fem/solid/eigenmodes.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
-#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/elastic_body.hpp"
 
 /// Static responses that enter a basis. Part of limber_reduction.
 namespace limber::flexbody {
@@ -33,7 +33,7 @@ struct StaticModes {
 };
 
 /// @throws InputError for nodal forces with a wrong number of rows.
-[[nodiscard]] StaticModes find_static_modes(const MeshedBody& body,
+[[nodiscard]] StaticModes find_static_modes(const ElasticBody& body,
                                             const Recipe& recipe);
 
 /// For Recipe::is_estimate: three steps of inverse iteration from the unit
@@ -41,11 +41,11 @@ struct StaticModes {
 /// span the responses to these miss (s / lambda_1)^3 of the first mode, 1e-6.
 ///
 /// Equation   [Y, A Y, A^2 Y], A = (K - s M)^-1 M, Y = (K - s M)^-1 F
-[[nodiscard]] StaticModes estimate_static_modes(const MeshedBody& body);
+[[nodiscard]] StaticModes estimate_static_modes(const ElasticBody& body);
 
 /// Eigenmodes and static-deformation modes as one basis.
 /// @param drop_tolerance as for orthonormalise() [-]
-[[nodiscard]] ReducedBasis join_basis(const MeshedBody& body,
+[[nodiscard]] ReducedBasis join_basis(const ElasticBody& body,
                                       const fem::Eigenmodes& eigenmodes,
                                       const StaticModes& modes,
                                       double drop_tolerance);

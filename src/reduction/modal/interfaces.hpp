@@ -29,10 +29,11 @@ struct Interface {
 /// Unit forces and moments that the interface can carry: 3 + rotation rank.
 [[nodiscard]] Matrix6X unit_wrenches(const InterfaceMotion& motion);
 
-/// Nodal forces of each load pattern, 3N x patterns [N].
+/// Nodal forces of each load pattern, rows x patterns [N].
+/// @param rows of fields of all nodes
 /// @throws InputError for an interface that does not exist.
 [[nodiscard]] MatrixX find_pattern_loads(
-    const fem::Mesh& mesh, const Recipe& recipe,
+    Eigen::Index rows, const Recipe& recipe,
     const std::vector<Interface>& interfaces);
 
 }  // namespace limber::flexbody

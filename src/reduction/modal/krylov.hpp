@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/elastic_body.hpp"
 
 namespace limber::flexbody {
 
@@ -14,7 +14,7 @@ namespace limber::flexbody {
 /// @param first 3n x inputs on the free nodes, without rigid motion [m]
 /// @param drop_tolerance as orthonormalise's [-]
 /// @return fewer than terms * inputs columns where the span is exhausted
-[[nodiscard]] MatrixX find_krylov_vectors(const MeshedBody& body,
+[[nodiscard]] MatrixX find_krylov_vectors(const ElasticBody& body,
                                           const MatrixX& first, int terms,
                                           double drop_tolerance);
 

@@ -11,13 +11,25 @@
 /// Free and clamped nodes of a body. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// The free nodes and the body's matrices on them.
+/// The free degrees of freedom and the body's matrices on them.
 struct Support {
   bool is_clamped = false;
-  std::vector<int> free_nodes;  ///< indices
+  std::vector<int> free_nodes;  ///< indices; of a mesh
+  Eigen::Index node_count = 0;  ///< of all nodes of a mesh
+  /// Fields of all nodes from the free degrees of freedom; no rows for a mesh.
+  fem::SparseMatrix lift;
   fem::StructuralMatrices matrices;
-  /// Rigid modes of the free nodes [kg^-1/2]; no columns if clamped.
+  /// Rigid modes of the free degrees of freedom [kg^-1/2]; no columns if
+  /// clamped.
   MatrixX R;
+  /// Unit translations along x, y, z of the free degrees of freedom.
+  MatrixX translations;
+
+  [[nodiscard]] Eigen::Index field_rows() const;
+  /// Fields of all nodes; zero at clamped ones.
+  [[nodiscard]] MatrixX on_all(const MatrixX& x) const;
+  /// Its transpose: generalized forces of nodal forces.
+  [[nodiscard]] MatrixX on_free(const MatrixX& forces) const;
 };
 
 /// Nodes of the recipe's clamped groups, sorted. @throws InputError for a group

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/krylov.hpp"
+#include "limber/reduction/modal/krylov.hpp"
 
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/multiply_mass.hpp"
 
 namespace limber::flexbody {
 
-MatrixX find_krylov_vectors(const MeshedBody& body, const MatrixX& first,
+MatrixX find_krylov_vectors(const ElasticBody& body, const MatrixX& first,
                             int terms, double drop_tolerance) {
   if (terms <= 1 || first.cols() == 0) return first;
   const Support& support = body.support;

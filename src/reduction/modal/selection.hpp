@@ -7,7 +7,7 @@
 #include "limber/flexbody/modal/mode_selection.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
-#include "limber/reduction/load_cases.hpp"
+#include "limber/reduction/modal/load_cases.hpp"
 
 /// Which eigenmodes enter a basis. Part of limber_reduction.
 namespace limber::flexbody {
@@ -16,19 +16,22 @@ namespace limber::flexbody {
 /// report's measure requires: the time is cubic in them, 5 s at 1626.
 inline constexpr Eigen::Index kMostDofsForAllModes = 4000;
 
-[[nodiscard]] bool can_find_all_modes(const MeshedBody& body);
+/// @throws InputError for a negative number of modes.
+void check_basis(const Recipe& recipe);
+
+[[nodiscard]] bool can_find_all_modes(const ElasticBody& body);
 
 /// Sums of the report's effective mass over all modes of the mesh, k.
 /// For bodies of which all modes can be found.
 [[nodiscard]] VectorX find_report_totals(const LoadCases& cases,
-                                         const MeshedBody& body,
+                                         const ElasticBody& body,
                                          const Progress& progress);
 
 /// Participation in translations of a clamped body's base, with the mass of its
 /// free nodes, on which the set of all modes is complete. The rows of rotation
 /// are zero.
 [[nodiscard]] Participation calc_base_participation(
-    const MeshedBody& body, const fem::Eigenmodes& modes);
+    const ElasticBody& body, const fem::Eigenmodes& modes);
 
 /// Share of every mode in every load case, in the unit of the measure:
 /// compliance [J], report [kg^1/2 N s^2], mass [kg].
@@ -41,7 +44,7 @@ struct CaseShares {
 [[nodiscard]] CaseShares find_shares(ModeMeasure measure,
                                      const fem::Eigenmodes& modes,
                                      const LoadCases& cases,
-                                     const MeshedBody& body,
+                                     const ElasticBody& body,
                                      const Progress& progress);
 
 struct ChosenModes {
@@ -52,7 +55,7 @@ struct ChosenModes {
 
 /// The recipe's number of eigenmodes, or those that its load cases need.
 /// @throws InputError
-[[nodiscard]] ChosenModes choose_eigenmodes(const MeshedBody& body,
+[[nodiscard]] ChosenModes choose_eigenmodes(const ElasticBody& body,
                                             const Recipe& recipe,
                                             const Progress& progress);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/static_modes.hpp"
+#include "limber/reduction/modal/static_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/flexbody/model/force_directions.hpp"
-#include "limber/reduction/krylov.hpp"
-#include "limber/reduction/load_cases.hpp"
+#include "limber/reduction/modal/krylov.hpp"
+#include "limber/reduction/modal/load_cases.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -19,13 +19,13 @@ void append(const MatrixX& columns, MatrixX& to) {
 }
 
 /// Loads of the patterns whose static responses enter the basis, on all nodes.
-MatrixX find_pattern_columns(const MeshedBody& body, const Recipe& recipe) {
+MatrixX find_pattern_columns(const ElasticBody& body, const Recipe& recipe) {
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i)
     if (recipe.load_patterns[i].static_mode)
       columns.push_back(static_cast<Eigen::Index>(i));
-  return find_pattern_loads(body.mesh, recipe, body.interfaces)(Eigen::all,
-                                                                columns);
+  return find_pattern_loads(body.support.field_rows(), recipe, body.interfaces)(
+      Eigen::all, columns);
 }
 
 /// Forces that deform the body: omits those that only move it, of which
@@ -43,7 +43,7 @@ MatrixX find_deforming(const fem::ElasticInverse& inverse, const MatrixX& F) {
 /// X = K^+ Q and Q^T X = A^T A, the responses X R have the energy Gram matrix
 /// (A R)^T (A R); A R R^T A^T = U diag(energy) U^T gives their principal
 /// directions X R R^T A^T U.
-MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
+MatrixX find_force_modes(const ElasticBody& body, const NodalForces& nodal,
                          LoadModesRecord& record) {
   check_rows(nodal, body.support);
   const ForceDirections found =
@@ -73,20 +73,18 @@ MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
   return X * (weight * principal.vectors.rowwise().reverse().leftCols(taken));
 }
 
-Matrix6 find_mean_motion(const MeshedBody& body, const Interface& interface,
+Matrix6 find_mean_motion(const ElasticBody& body, const Interface& interface,
                          const MatrixX& answers) {
-  const Matrix6 motion =
-      interface.motion.apply(
-          put_rows(answers, body.support.free_nodes, body.mesh.x.cols())) *
-      unit_wrenches(interface.motion).transpose();
+  const Matrix6 motion = interface.motion.apply(body.support.on_all(answers)) *
+                         unit_wrenches(interface.motion).transpose();
   return 0.5 * (motion + motion.transpose());
 }
 
 }  // namespace
 
-StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
+StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe) {
   const auto solve = [&](const MatrixX& loads) {
-    return body.inverse.solve(take_rows(loads, body.support.free_nodes));
+    return body.inverse.solve(body.support.on_free(loads));
   };
   StaticModes modes;
   modes.vectors.resize(body.support.matrices.dof_count(), 0);
@@ -109,14 +107,13 @@ StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
   return modes;
 }
 
-StaticModes estimate_static_modes(const MeshedBody& body) {
+StaticModes estimate_static_modes(const ElasticBody& body) {
   constexpr int kSteps = 3;
-  const std::vector<int>& free_nodes = body.support.free_nodes;
   const fem::SparseMatrix& M_s = body.support.matrices.M_s;
   MatrixX loads(body.support.matrices.dof_count(), 0);
   for (const Interface& interface : body.interfaces)
-    append(take_rows(interface.motion.spread(unit_wrenches(interface.motion)),
-                     free_nodes),
+    append(body.support.on_free(
+               interface.motion.spread(unit_wrenches(interface.motion))),
            loads);
   StaticModes modes;
   modes.vectors = loads;
@@ -137,7 +134,7 @@ StaticModes estimate_static_modes(const MeshedBody& body) {
   return modes;
 }
 
-ReducedBasis join_basis(const MeshedBody& body,
+ReducedBasis join_basis(const ElasticBody& body,
                         const fem::Eigenmodes& eigenmodes,
                         const StaticModes& modes, double drop_tolerance) {
   const Support& support = body.support;

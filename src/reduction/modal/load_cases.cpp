@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/load_cases.hpp"
+#include "limber/reduction/modal/load_cases.hpp"
 
 #include <fmt/format.h>
 
@@ -68,11 +68,10 @@ std::string describe(const LoadPattern& pattern) {
   return text;
 }
 
-void add_patterns(const MeshedBody& body, const Recipe& recipe,
+void add_patterns(const ElasticBody& body, const Recipe& recipe,
                   Collection& cases) {
-  const MatrixX loads =
-      take_rows(find_pattern_loads(body.mesh, recipe, body.interfaces),
-                body.support.free_nodes);
+  const MatrixX loads = body.support.on_free(
+      find_pattern_loads(body.support.field_rows(), recipe, body.interfaces));
   for (Eigen::Index i = 0; i < loads.cols(); ++i)
     cases.add(describe(recipe.load_patterns[static_cast<std::size_t>(i)]),
               loads.col(i));
@@ -94,8 +93,7 @@ void add_nodal_forces(const NodalForces& nodal, const Support& support,
 void add_interface(const Interface& interface, const Support& support,
                    Collection& cases) {
   const Matrix6X wrenches = unit_wrenches(interface.motion);
-  const MatrixX loads =
-      take_rows(interface.motion.spread(wrenches), support.free_nodes);
+  const MatrixX loads = support.on_free(interface.motion.spread(wrenches));
   for (Eigen::Index i = 0; i < loads.cols(); ++i) {
     const bool is_force = i < 3;
     const Vector3 axis = wrenches.col(i).segment<3>(is_force ? 0 : 3);
@@ -111,12 +109,10 @@ void add_base_motion(const Support& support, Collection& cases) {
         "measure 'mass' is of the motion of a clamped body's base, but nothing "
         "is clamped: the modes of a free body do not answer it. Use measure "
         "'compliance', or clamp a group.");
-  const Eigen::Index nodes = support.matrices.node_count();
-  for (int axis = 0; axis < 3; ++axis) {
-    const VectorX r = Vector3(Vector3::Unit(axis)).replicate(nodes, 1);
-    cases.add(fmt::format("base along {}", "xyz"[axis]),
-              fem::multiply_mass(support.matrices.M_s, r));
-  }
+  const MatrixX loads =
+      fem::multiply_mass(support.matrices.M_s, support.translations);
+  for (int axis = 0; axis < 3; ++axis)
+    cases.add(fmt::format("base along {}", "xyz"[axis]), loads.col(axis));
 }
 
 /// f^T K^+ f, column by column in blocks, so that many cases need little
@@ -149,7 +145,7 @@ void check_rows(const NodalForces& nodal, const Support& support) {
         nodal.name, nodal.forces.rows(), rows, rows / 3));
 }
 
-LoadCases find_load_cases(const MeshedBody& body, const Recipe& recipe,
+LoadCases find_load_cases(const ElasticBody& body, const Recipe& recipe,
                           ModeMeasure measure) {
   const Support& support = body.support;
   Collection collection(support.matrices.dof_count());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/support.hpp"
+#include "limber/reduction/modal/support.hpp"
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <set>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
@@ -43,6 +44,9 @@ Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
   support.is_clamped = !clamped.empty();
   if (support.is_clamped) check_clamp(mesh, clamped);
   support.free_nodes = fem::find_free_nodes(mesh, clamped);
+  support.node_count = mesh.x.cols();
+  support.translations =
+      Matrix3::Identity().replicate(std::ssize(support.free_nodes), 1);
   if (!support.is_clamped) {
     support.R = fem::make_rigid_modes(matrices.M_s, mesh.x);
     support.matrices = std::move(matrices);
@@ -54,6 +58,20 @@ Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
   support.matrices = fem::restrict_to(matrices, support.free_nodes);
   support.R.resize(support.matrices.dof_count(), 0);
   return support;
+}
+
+Eigen::Index Support::field_rows() const {
+  return lift.rows() > 0 ? lift.rows() : 3 * node_count;
+}
+
+MatrixX Support::on_all(const MatrixX& x) const {
+  if (lift.rows() > 0) return lift * x;
+  return put_rows(x, free_nodes, node_count);
+}
+
+MatrixX Support::on_free(const MatrixX& forces) const {
+  if (lift.rows() > 0) return lift.transpose() * forces;
+  return take_rows(forces, free_nodes);
 }
 
 ReducedBasis make_reduced_basis(const MatrixX& vectors, const Support& support,

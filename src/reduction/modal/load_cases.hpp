@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/modal/elastic_body.hpp"
 
 /// Load cases for the selection of modes. Part of limber_reduction.
 namespace limber::flexbody {
@@ -26,7 +26,7 @@ void check_rows(const NodalForces& nodal, const Support& support);
 /// inertia forces M r of a base that moves in x, y or z.
 /// @throws InputError if there are none, for nodal forces with a wrong number
 /// of rows, and for `mass` of a body that is not clamped.
-[[nodiscard]] LoadCases find_load_cases(const MeshedBody& body,
+[[nodiscard]] LoadCases find_load_cases(const ElasticBody& body,
                                         const Recipe& recipe,
                                         ModeMeasure measure);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/modal/interfaces.hpp"
 
 #include <fmt/format.h>
 
@@ -88,10 +88,9 @@ Matrix6X unit_wrenches(const InterfaceMotion& motion) {
   return wrenches;
 }
 
-MatrixX find_pattern_loads(const fem::Mesh& mesh, const Recipe& recipe,
+MatrixX find_pattern_loads(Eigen::Index rows, const Recipe& recipe,
                            const std::vector<Interface>& interfaces) {
-  MatrixX loads(3 * static_cast<Eigen::Index>(mesh.node_count()),
-                static_cast<Eigen::Index>(recipe.load_patterns.size()));
+  MatrixX loads(rows, static_cast<Eigen::Index>(recipe.load_patterns.size()));
   std::vector<std::string> known;
   for (const Interface& interface : interfaces) known.push_back(interface.name);
   for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i) {

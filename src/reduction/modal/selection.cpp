@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/selection.hpp"
+#include "limber/reduction/modal/selection.hpp"
 
 #include <fmt/format.h>
 
@@ -63,10 +63,14 @@ constexpr double kPeriods = 2.0;
 
 // Largest lambda that impacts need [rad^2/s^2].
 double find_impact_limit(const AutomaticModes& options,
-                         const MeshedBody& body) {
-  const double own = body.support.is_clamped
-                         ? std::numeric_limits<double>::infinity()
-                         : body.support.matrices.M_s.sum();
+                         const ElasticBody& body) {
+  const VectorX along_x = body.support.translations.col(0);
+  const double own =
+      body.support.is_clamped
+          ? std::numeric_limits<double>::infinity()
+          : fem::multiply_mass(body.support.matrices.M_s, along_x)
+                .col(0)
+                .dot(along_x);
   double limit = 0.0;
   for (const ExpectedImpact& impact : options.impacts) {
     if (std::isinf(own) && std::isinf(impact.mass)) continue;
@@ -93,7 +97,7 @@ void add_modes_to(double limit, const VectorX& lambda, const CaseShares& shares,
 }
 
 /// Called before any long work.
-void check_measure(ModeMeasure measure, const MeshedBody& body) {
+void check_measure(ModeMeasure measure, const ElasticBody& body) {
   if (measure != ModeMeasure::report || can_find_all_modes(body)) return;
   throw InputError(fmt::format(
       "measure 'report' takes the sum over all modes of the mesh; {} free "
@@ -104,11 +108,21 @@ void check_measure(ModeMeasure measure, const MeshedBody& body) {
 
 }  // namespace
 
-bool can_find_all_modes(const MeshedBody& body) {
+void check_basis(const Recipe& recipe) {
+  const auto check_count = [&](int count) {
+    if (count >= 0) return;
+    throw InputError(fmt::format(
+        "body '{}': {} eigenmodes; expected 0 or more.", recipe.name, count));
+  };
+  check_count(recipe.basis.eigenmodes);
+  if (recipe.basis.automatic) check_count(recipe.basis.automatic->candidates);
+}
+
+bool can_find_all_modes(const ElasticBody& body) {
   return body.inverse.matrices().dof_count() <= kMostDofsForAllModes;
 }
 
-VectorX find_report_totals(const LoadCases& cases, const MeshedBody& body,
+VectorX find_report_totals(const LoadCases& cases, const ElasticBody& body,
                            const Progress& progress) {
   LIMBER_EXPECT(can_find_all_modes(body));
   report(progress, "all modes of the mesh", 0.0);
@@ -121,15 +135,14 @@ VectorX find_report_totals(const LoadCases& cases, const MeshedBody& body,
       .transpose();
 }
 
-Participation calc_base_participation(const MeshedBody& body,
+Participation calc_base_participation(const ElasticBody& body,
                                       const fem::Eigenmodes& modes) {
-  const fem::StructuralMatrices& matrices = body.support.matrices;
-  return calc_participation(modes.Phi, matrices.M_s,
-                            Matrix3X::Zero(3, matrices.node_count()));
+  return calc_base_participation(modes.Phi, body.support.matrices.M_s,
+                                 body.support.translations);
 }
 
 CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
-                       const LoadCases& cases, const MeshedBody& body,
+                       const LoadCases& cases, const ElasticBody& body,
                        const Progress& progress) {
   switch (measure) {
     case ModeMeasure::report:
@@ -148,7 +161,7 @@ CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
   return {find_compliances(modes.Phi, modes.lambda, cases), cases.compliance};
 }
 
-ChosenModes choose_eigenmodes(const MeshedBody& body, const Recipe& recipe,
+ChosenModes choose_eigenmodes(const ElasticBody& body, const Recipe& recipe,
                               const Progress& progress) {
   const fem::ElasticInverse& inverse = body.inverse;
   ChosenModes chosen;

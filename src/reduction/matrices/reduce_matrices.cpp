@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/reduction/matrices/reduce_matrices.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "limber/fem/matrices/read_matrices.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
+#include "limber/reduction/matrices/matrix_body.hpp"
+#include "limber/reduction/matrices/matrix_interfaces.hpp"
+#include "limber/reduction/modal/selection.hpp"
+#include "limber/reduction/modal/static_modes.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+/// Modes on all rows of the system, zero on those that are held.
+MatrixX put_system_rows(const MatrixX& Phi, const std::vector<int>& rows,
+                        Eigen::Index count) {
+  MatrixX all = MatrixX::Zero(count, Phi.cols());
+  all(rows, Eigen::all) = Phi;
+  return all;
+}
+
+std::vector<int> choose_nodes(const MatrixSystem& system, const Recipe& recipe,
+                              const std::vector<Interface>& interfaces) {
+  using Extent = KeptRows::Extent;
+  std::set<int> kept;
+  const auto keep = [&](const std::vector<int>& nodes) {
+    for (const int node : nodes)
+      if (system.is_moving[static_cast<std::size_t>(node)]) kept.insert(node);
+  };
+  if (recipe.rows.extent != Extent::groups)
+    for (int n = 0; n < static_cast<int>(system.tags.size()); ++n)
+      if (system.is_moving[static_cast<std::size_t>(n)]) kept.insert(n);
+  for (const std::string& name : recipe.rows.groups)
+    keep(find_matrix_nodes(system, name));
+  for (const Interface& interface : interfaces) keep(interface.selection.nodes);
+  return {kept.begin(), kept.end()};
+}
+
+/// Index in `kept` of each node; none if one is missing.
+template <std::size_t count>
+std::vector<std::array<std::size_t, count>> find_kept(
+    const std::vector<std::array<int, count>>& elements,
+    const std::vector<int>& kept) {
+  std::vector<std::array<std::size_t, count>> found;
+  for (const std::array<int, count>& nodes : elements) {
+    std::array<std::size_t, count> rows{};
+    bool is_kept = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto at = std::lower_bound(kept.begin(), kept.end(), nodes[i]);
+      is_kept = is_kept && at != kept.end() && *at == nodes[i];
+      rows[i] = static_cast<std::size_t>(at - kept.begin());
+    }
+    if (is_kept) found.push_back(rows);
+  }
+  return found;
+}
+
+std::vector<std::size_t> tags_of(const MatrixSystem& system,
+                                 const std::vector<int>& nodes) {
+  std::vector<std::size_t> tags;
+  for (const int node : nodes)
+    tags.push_back(system.tags[static_cast<std::size_t>(node)]);
+  return tags;
+}
+
+/// @param fields 6N x m of all nodes
+void keep_nodes(const MatrixBody& meshed, const Recipe& recipe,
+                const MatrixX& fields, ReducedBody& body) {
+  const MatrixSystem& system = meshed.part->system;
+  const std::vector<int> kept = choose_nodes(system, recipe, meshed.interfaces);
+  body.rows.tags = tags_of(system, kept);
+  body.rows.x_B =
+      Matrix3X(system.x(Eigen::all, kept)).colwise() - body.p_MoBcm_M;
+  body.rows.Phi_B.resize(3 * std::ssize(kept), fields.cols());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    body.rows.Phi_B.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
+        fields.middleRows<3>(field_row(kept[i], 0));
+  body.triangles = find_kept(system.triangles, kept);
+  for (const fem::MatrixNodeSet& set : system.sets) {
+    const auto is_kept = [&](int node) {
+      return std::binary_search(kept.begin(), kept.end(), node);
+    };
+    if (set.nodes.empty() ||
+        !std::all_of(set.nodes.begin(), set.nodes.end(), is_kept))
+      continue;
+    const auto count = static_cast<double>(set.nodes.size());
+    body.groups.push_back(
+        {set.name, 0, tags_of(system, set.nodes),
+         VectorX::Constant(std::ssize(set.nodes), 1.0 / count)});
+  }
+}
+
+void add_interfaces(const MatrixBody& meshed, const StaticModes& modes,
+                    const MatrixX& fields, ReducedBody& body) {
+  for (std::size_t i = 0; i < meshed.interfaces.size(); ++i) {
+    const Interface& interface = meshed.interfaces[i];
+    const Matrix6X table = interface.motion.apply(fields);
+    body.interfaces.push_back(
+        {interface.name, interface.motion.mean_point() - body.p_MoBcm_M,
+         table.topRows<3>(), table.bottomRows<3>(),
+         interface.motion.rotation_axes(), interface.selection.nodes.size(),
+         modes.flexibility[i]});
+  }
+}
+
+/// Translations of all nodes that have mass by themselves, 3N x m.
+MatrixX take_translations(const MatrixSystem& system, const MatrixX& Phi) {
+  MatrixX taken = MatrixX::Zero(
+      3 * static_cast<Eigen::Index>(system.tags.size()), Phi.cols());
+  for (Eigen::Index i = 0; i < Phi.rows(); ++i) {
+    const fem::MatrixRow& row = system.rows[static_cast<std::size_t>(i)];
+    if (row.node >= 0 && row.component >= 0 && row.component < 3)
+      taken.row(3 * row.node + row.component) = Phi.row(i);
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,
+                                                   const Progress& progress) {
+  report(progress, "reading the matrices", 0.0);
+  return make_matrix_part(fem::read_matrices({source.matrices.paths}),
+                          source.matrices.mass,
+                          source.unit > 0.0 ? source.unit : 1.0, progress);
+}
+
+ReducedBody reduce_matrices(const Recipe& recipe,
+                            const std::shared_ptr<const MatrixPart>& part,
+                            const Progress& progress) {
+  report(progress, "factorising", 0.0);
+  const MatrixBody meshed(recipe, part);
+  const MatrixSystem& system = part->system;
+  const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
+  report(progress, "static-deformation modes", 0.0);
+  const StaticModes modes = find_static_modes(meshed, recipe);
+  const ReducedBasis basis =
+      join_basis(meshed, chosen.eigenmodes, modes, recipe.basis.drop_tolerance);
+  const MatrixX Phi =
+      put_system_rows(basis.Phi, meshed.rows, system.row_count());
+  const MatrixX fields = meshed.support.on_all(basis.Phi);
+
+  ReducedBody body;
+  body.name = recipe.name;
+  body.clamped = meshed.support.is_clamped;
+  body.mass = part->inertia.mass;
+  body.p_MoBcm_M = part->inertia.center;
+  body.size = system.size();
+  report(progress, "inertia integrals", 0.0);
+  body.integrals = calc_block_integrals(system, part->blocks, part->X, Phi);
+  body.lambda = basis.lambda;
+  body.selection = finish_record(chosen, basis);
+  body.load_modes = modes.loads;
+  if (!body.clamped)
+    body.levers =
+        calc_inertial_levers(find_scalar_mass(part->blocks),
+                             system.x.colwise() - part->inertia.center,
+                             take_translations(system, Phi), basis.lambda);
+  body.mesh_nodes = system.tags.size();
+  body.mesh_boundary_nodes = system.tags.size();
+  keep_nodes(meshed, recipe, fields, body);
+  add_interfaces(meshed, modes, fields, body);
+  report(progress, "reduced", 1.0);
+  return body;
+}
+
+}  // namespace limber::flexbody

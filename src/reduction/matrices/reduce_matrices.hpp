@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "limber/common/progress.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/reduction/matrices/matrix_part.hpp"
+
+/// Reduction of a model given by matrices. Part of limber_reduction.
+namespace limber::flexbody {
+
+/// Reads, and checks as make_matrix_part, what recipe.mesh.matrices names.
+/// @throws InputError naming the file and line, the node or the value
+[[nodiscard]] std::shared_ptr<const MatrixPart> read_matrix_part(
+    const MeshSource& source, const Progress& progress = {});
+
+/// Modes, static-deformation modes and tables as of a mesh. The stored rows are
+/// translations of nodes, also of condensed ones.
+/// @throws InputError as MatrixBody; NumericalError if an eigenpair or a solve
+/// misses its tolerance
+[[nodiscard]] ReducedBody reduce_matrices(
+    const Recipe& recipe, const std::shared_ptr<const MatrixPart>& part,
+    const Progress& progress = {});
+
+}  // namespace limber::flexbody
