@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "limber/dynamics/equations/energy.hpp"
@@ -67,11 +68,13 @@ TEST(MatrixMotion, IsThatOfTheMeshAtEveryLevel) {
   const testing::Bar bar{.corner = {0.3, -0.2, 0.1}};
   Recipe recipe = testing::make_recipe(bar);
   recipe.interfaces.clear();
+  recipe.rows = parse_rows({"all"});
   recipe.basis.eigenmodes = 6;
   const MeshedBody meshed(recipe, {});
   const auto of_mesh = std::make_shared<const ReducedBody>(reduce(recipe));
-  const auto of_matrices = std::make_shared<const ReducedBody>(reduce_matrices(
-      recipe, make_matrix_part(export_mesh(meshed), bar.mass(), 1.0)));
+  const auto part = make_matrix_part(export_mesh(meshed), bar.mass(), 1.0);
+  const auto of_matrices = std::make_shared<const ReducedBody>(
+      align_signs(reduce_matrices(recipe, part), *of_mesh));
   for (const Fidelity level : {Fidelity::rigid, Fidelity::uncoupled,
                                Fidelity::one_way, Fidelity::coupled}) {
     const dynamics::SystemState a = move(of_mesh, level);
