@@ -159,8 +159,10 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
 
 // With stress modes, so that a later run that asks for stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
+// Matrices have no elements for stress.
 ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
-  recipe.stress |= !recipe.manifold && !recipe.is_estimate;
+  recipe.stress |=
+      !recipe.manifold && !recipe.is_estimate && !recipe.mesh.is_matrices();
   return mesh.reduce(recipe);
 }
 
