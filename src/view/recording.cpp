@@ -210,7 +210,8 @@ class RecordingReader {
         "cannot be drawn: not all nodes on the surface of {} '{}' were kept. "
         "Take rows=\"boundary\" (the default) in <flexible><basis> of the "
         "robot, or `limber reduce --rows boundary` for a saved body, and run "
-        "the scenario again",
+        "the scenario again. A link from matrices has no closed surface and "
+        "cannot be drawn",
         bare.size() == 1 ? "link" : "links", fmt::join(bare, "', '")));
   }
 
