@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "limber/common/errors.hpp"
 
@@ -32,6 +34,18 @@ void check_sizes(const fem::MatrixModel& model) {
     problems.push_back(
         fmt::format("{}: the matrices have no rows", model.source));
   if (!problems.empty()) throw InputError(problems);
+}
+
+/// @throws InputError for a direction of a node that has two rows.
+void check_rows(const MatrixSystem& system) {
+  std::set<std::pair<int, int>> seen;
+  for (Eigen::Index i = 0; i < std::ssize(system.rows); ++i) {
+    const fem::MatrixRow& row = system.rows[static_cast<std::size_t>(i)];
+    if (!is_known(row) || seen.insert({row.node, row.component}).second)
+      continue;
+    throw InputError(fmt::format("{}: {} has two rows; expected one each",
+                                 system.source, system.name_row(i)));
+  }
 }
 
 fem::SparseMatrix make_lift(const fem::MatrixModel& model) {
@@ -166,6 +180,7 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   system.tags = std::move(model.tags);
   system.x = unit * model.x;
   system.rows = std::move(model.rows);
+  check_rows(system);
   system.sets = std::move(model.sets);
   system.found = std::move(model.found);
   system.edges = std::move(model.edges);

@@ -63,7 +63,8 @@ inline constexpr double kHeld = 1e30;
 /// Equation   u = D u_SI, D = 1/unit for translations and 1 for others;
 ///            K_SI = unit D K D, M_SI = unit D M D
 /// @param unit metres per length of the files, > 0 [m]
-/// @throws InputError for matrices that do not fit their rows
+/// @throws InputError for matrices that do not fit their rows, and for two rows
+/// of one direction
 [[nodiscard]] MatrixSystem make_matrix_system(fem::MatrixModel model,
                                               double unit);
 

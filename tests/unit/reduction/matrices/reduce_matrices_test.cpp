@@ -269,6 +269,79 @@ TEST(ReduceMatrices, MayHaveRowsWithoutMass) {
   EXPECT_NEAR(f[2] / calc_free_frequency(61.67282, beam.EIz), 1.0, 1e-3);
 }
 
+/// Node 14 was condensed: it hangs rigidly on node 13, at an offset.
+TEST(ReduceMatrices, GiveCondensedNodesTheirMotion) {
+  fem::MatrixModel model =
+      fem::read_matrices({{LIMBER_SOURCE_DIR "/tests/data/matrices/arch"}});
+  const Vector3 offset(0.1, -0.2, 0.3);
+  model.x.conservativeResize(3, 14);
+  model.x.col(13) = model.x.col(12) + offset;
+  model.tags.push_back(14);
+  MatrixX T = MatrixX::Zero(6, 78);
+  T.block<3, 3>(0, 72).setIdentity();
+  T.block<3, 3>(0, 75) = -skew(offset);
+  T.block<3, 3>(3, 75).setIdentity();
+  model.equations = T.sparseView();
+  for (int c = 0; c < 6; ++c) model.condensed.push_back({13, c});
+  const auto part = make_matrix_part(std::move(model), 7.4186889, 1.0);
+  EXPECT_TRUE(part->system.notices.empty());
+  Recipe recipe = make_beam_recipe(6);
+  recipe.interfaces = {{"near", TaggedNode{13}}, {"far", TaggedNode{14}}};
+  const ReducedBody body = reduce_matrices(recipe, part);
+  const InterfaceTable& near = body.interfaces[0];
+  const InterfaceTable& far = body.interfaces[1];
+  EXPECT_EQ(far.rotation_rank(), 3);
+  EXPECT_LT((far.p_B - near.p_B - offset).norm(), 1e-14);
+  expect_near(far.Psi_B, near.Psi_B, 1e-12, "rotation");
+  expect_near(far.Phi_B, near.Phi_B - skew(offset) * near.Psi_B, 1e-12,
+              "translation");
+}
+
+/// A row without a node that moves with a spring between two others: its rigid
+/// motion follows from the stiffness.
+TEST(ReduceMatrices, MayHaveARowOfUnknownKind) {
+  const fem::MatrixModel arch =
+      fem::read_matrices({{LIMBER_SOURCE_DIR "/tests/data/matrices/arch"}});
+  const auto extend = [](const Eigen::SparseMatrix<double>& A) {
+    MatrixX extended = MatrixX::Zero(79, 79);
+    extended.topLeftCorner<78, 78>() = MatrixX(A);
+    return extended;
+  };
+  MatrixX K = extend(arch.stiffness.entries);
+  const MatrixX M = extend(arch.mass.entries);
+  constexpr double kSpring = 1e4;
+  for (const int end : {6 * 2 + 1, 6 * 3 + 1}) {  // along y of nodes 3 and 4
+    K(78, 78) += kSpring;
+    K(end, end) += kSpring;
+    K(78, end) -= kSpring;
+    K(end, 78) -= kSpring;
+  }
+  fem::MatrixModel model = arch;
+  model.rows.push_back({-1, -1});
+  model.stiffness.entries = K.sparseView();
+  model.mass.entries = M.sparseView();
+  // Nodes 3 and 4 differ in x, so the spring resists rotation about z, weakly.
+  const auto part = make_matrix_part(model, 7.4186889, 1.0);
+  ASSERT_EQ(part->system.notices.size(), 1U);
+  EXPECT_THAT(part->system.notices.front(), HasSubstr("rotation about z"));
+  model.x(0, 3) = model.x(0, 2);
+  model.x(2, 3) = model.x(2, 2);
+  EXPECT_NEAR(make_rigid_motions(make_matrix_system(model, 1.0))(78, 1), 1.0,
+              1e-12);
+}
+
+TEST(ReduceMatrices, OfADirectionWithTwoRowsAreRefused) {
+  fem::MatrixModel model =
+      fem::read_matrices({{LIMBER_SOURCE_DIR "/tests/data/matrices/arch"}});
+  model.rows[8] = model.rows[7];
+  try {
+    static_cast<void>(make_matrix_part(model, 7.4186889, 1.0));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("node 2, y has two rows"));
+  }
+}
+
 std::string refuse(const std::function<void(Recipe&)>& change) {
   Recipe recipe = make_beam_recipe(2);
   change(recipe);
