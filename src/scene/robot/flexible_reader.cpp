@@ -46,7 +46,7 @@ void read_matrices(XmlElement& element, const std::filesystem::path& folder,
   };
   add(element.required_text("path"));
   for (const char* name :
-       {"stiffness_file", "mass_file", "nodes_file", "equations_file"}) {
+       {"stiffness_file", "mass_file", "nodes_file", "rows_file"}) {
     if (const auto path = element.text(name)) add(*path);
   }
   source.file = source.matrices.paths.front();
