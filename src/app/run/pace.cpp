@@ -36,7 +36,7 @@ class Trial {
     dynamics::RunRecord record;
     const Clock::time_point start = Clock::now();
     bool is_first_pass = true;
-    const Progress observer = [&](std::string_view, double fraction) {
+    const Progress progress = [&](std::string_view, double fraction) {
       const double seconds = seconds_since(start);
       is_first_pass = is_first_pass && fraction >= points_.back().fraction;
       if (is_first_pass) points_.push_back({fraction, seconds});
@@ -49,7 +49,7 @@ class Trial {
       static_cast<void>(scene::evaluate_all(built.probes, built.model, now));
     };
     try {
-      dynamics::simulate(built.model, state, settings, observer, observer,
+      dynamics::simulate(built.model, state, settings, observer, progress,
                          statistics, {},
                          scene::follow(built.probes, built.model), record);
     } catch (const dynamics::Interrupted&) {  // as asked

@@ -67,7 +67,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       peaks_(model, followed,
              choose_envelope_edges(state.t, settings.output_times,
                                    settings.end_time)),
-      audit_(model, settings.integrator),
+      step_observer_(model, settings.integrator),
       contacts_(model, settings.integrator,
                 settings.tolerance > 0.0 ? 0.0 : settings.step),
       check_(std::move(check)),
@@ -93,7 +93,7 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   control_.exchange_memory(archive);
   steps_.exchange_memory(archive);
   peaks_.exchange_memory(archive);
-  audit_.exchange_memory(archive);
+  step_observer_.exchange_memory(archive);
   contacts_.exchange_memory(archive);
   saturation_.exchange_memory(archive);
   exchange_costs(archive, statistics_);
@@ -161,7 +161,7 @@ double TimeLoop::find_share(double t) const {
 // A state after a blow-up does not show its cause.
 bool TimeLoop::is_sound(const SystemState& state) {
   try {
-    return !audit_.has_too_much(state);
+    return !step_observer_.has_too_much(state);
   } catch (const NumericalError&) {
     return true;  // as of a joint whose axis is reversed, which is a cause
   }
@@ -177,9 +177,9 @@ void TimeLoop::fail(const SystemState& state, double h,
 }
 
 void TimeLoop::inspect(const SystemState& state) {
-  const auto excess = audit_.find_blow_up(state.t == settings_.end_time);
+  const auto excess = step_observer_.find_blow_up(state.t == settings_.end_time);
   if (!excess) {
-    if (!audit_.has_too_much()) sound_ = state;
+    if (!step_observer_.has_too_much()) sound_ = state;
     return;
   }
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
@@ -222,18 +222,18 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
   peaks_.include(state);
   const SystemTerms* smooth =
       statistics_.events.size() == events_before ? &stepper_.terms() : nullptr;
-  audit_.include(state, smooth, stepper_.flows(),
+  step_observer_.include(state, smooth, stepper_.flows(),
                  is_look_due(state, statistics_.steps + 1), statistics_.events);
-  contacts_.include(state, stepper_.touches(), audit_, stepper_.flows());
+  contacts_.include(state, stepper_.touches(), step_observer_, stepper_.flows());
 }
 
 void TimeLoop::tell(RunRecord& record) {
   peaks_.tell(record.peaks, record.places, record.envelopes);
-  record.energy = audit_.find_energy();
+  record.energy = step_observer_.find_energy();
   record.contacts = contacts_.find_records();
   record.steps = steps_;
   record.times = timer_.find_times();
-  audit_.add_warnings(statistics_.warnings);
+  step_observer_.add_warnings(statistics_.warnings);
   contacts_.add_warnings(statistics_.warnings);
   if (const auto pair = stepper_.take_excess()) {
     statistics_.warnings.push_back(fmt::format(
@@ -265,13 +265,13 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       calc_terms(model_, state, Side::right, terms_);
       clash_ = find_start_clash(model_, state, terms_, h_);
       peaks_.start(state);
-      audit_.start(state, terms_, impulse ? impulse->dissipated : 0.0,
+      step_observer_.start(state, terms_, impulse ? impulse->dissipated : 0.0,
                    statistics_.events);
-      contacts_.include(state, stepper_.touches(), audit_, stepper_.flows());
+      contacts_.include(state, stepper_.touches(), step_observer_, stepper_.flows());
     }
     if (at_jump_) {
       stepper_.cross_jump(state, h_);
-      audit_.cross_jump(state, stepper_.flows());
+      step_observer_.cross_jump(state, stepper_.flows());
       at_jump_ = false;
     }
   } catch (const NumericalError& error) {
