@@ -101,8 +101,10 @@ std::vector<ExpandedElement> read_expansion(const std::filesystem::path& file) {
   while (scanner.next_text()) {
     std::string_view line = scanner.line();
     if (take_word(line) != "ELEMENT") {
-      // A knot is told by 'a KNOT was generated in node'.
-      if (contains_word(scanner.line(), "KNOT")) continue;
+      // Knots and mean rotations: 'a KNOT was generated in node', and axes.
+      if (scanner.line().find(" was generated in node") != std::string::npos ||
+          scanner.line().find("about the axis") != std::string::npos)
+        continue;
       scanner.fail(
           fmt::format("'{}'. Expected ELEMENT, its nodes and its "
                       "topology.",

@@ -219,7 +219,8 @@ class FileSetReader {
     if (!set_.is_calculix || set_.row_tables.size() != 1) return;
     std::vector<RowLabel>& rows = set_.row_tables[0].labels;
     const Path* const topology = find_single(ModelFileKind::expansion);
-    if (topology != nullptr) {
+    set_.is_expanded = topology != nullptr;
+    if (set_.is_expanded) {
       const std::vector<ExpandedElement> elements = read_expansion(*topology);
       const ModelFile solid = read_solid_nodes();
       expand_nodes(elements, solid, *set_.deck, rows);

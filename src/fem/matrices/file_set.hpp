@@ -22,6 +22,7 @@ struct FileSet {
   std::optional<ModelFile> nodes;
   std::optional<InputDeck> deck;  ///< of which `nodes` are a copy
   bool is_calculix = false;       ///< its .dof is there
+  bool is_expanded = false;       ///< from shells or beams, by CalculiX
 };
 
 /// Finds out what each file, also in folders, is and reads it.

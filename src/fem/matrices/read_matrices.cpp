@@ -199,10 +199,11 @@ class ModelMaker {
     for (const RowLabel& label : labels_) {
       const auto node = places_.find(label.node);
       const bool is_known = label.component >= 1 && label.component <= 6;
-      // Internal nodes of the program, and scalar points, have no position.
-      const bool may_lack = label.node < 0 || label.component == 0 ||
-                            label.component > 6 ||
-                            (set_.is_calculix && label.node > last);
+      // Internal nodes of the program (CalculiX: knots of expanded shells), and
+      // scalar points, have no position.
+      const bool may_lack =
+          label.node < 0 || label.component == 0 || label.component > 6 ||
+          (set_.is_calculix && (set_.is_expanded || label.node > last));
       if (node == places_.end() && !may_lack)
         throw InputError(fmt::format(
             "{}: node {} of row {} has no coordinates. Expected it among the "

@@ -103,8 +103,8 @@ void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
     const double found = residual.col(i).norm();
     if (!(found <= allowed))
       throw NumericalError(fmt::format(
-          "eigenmode {}: residual {:.3g} N exceeds its tolerance {:.3g} N",
-          i + 1, found, allowed));
+          "eigenmode {}: residual {:.3g} N exceeds its tolerance {:.3g} N.{}",
+          i + 1, found, allowed, inverse.conditioning()));
   }
 }
 

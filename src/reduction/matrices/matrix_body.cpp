@@ -105,6 +105,16 @@ Support make_matrix_support(const MatrixPart& part,
   return support;
 }
 
+// Causes of ill-conditioning, as sentences for an error.
+std::string describe_conditioning(const MatrixSystem& system) {
+  if (system.notices.empty())
+    return " Parts of very different stiffness meet in the matrices, or their "
+           "digits do not suffice.";
+  std::string causes;
+  for (const std::string& notice : system.notices) causes += " " + notice + ".";
+  return causes;
+}
+
 }  // namespace
 
 struct MatrixBody::Parts {
@@ -144,8 +154,7 @@ MatrixBody::MatrixBody(const Recipe& recipe,
 MatrixBody::MatrixBody(Parts parts)
     : ElasticBody(parts.part->system.source, std::move(parts.interfaces),
                   std::move(parts.support), parts.shift,
-                  " Parts of very different stiffness meet in the matrices, or "
-                  "their digits do not suffice."),
+                  describe_conditioning(parts.part->system)),
       part(std::move(parts.part)),
       rows(std::move(parts.rows)) {}
 

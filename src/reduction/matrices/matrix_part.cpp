@@ -181,30 +181,15 @@ void check_digits(const fem::StructuralMatrices& matrices,
       system.source, system.digits, error));
 }
 
-void check_blocks(const MatrixPart& part, MatrixSystem& system) {
-  constexpr double kSilent = 2e-3;
-  constexpr double kAllowed = 0.1;
-  const double defect = calc_block_defect(system, part.blocks, part.inertia);
-  if (defect < kSilent) return;
-  const std::string text = fmt::format(
+std::string describe_defect(const MatrixPart& part) {
+  return fmt::format(
       "{}: moments of inertia by the nodes' blocks of the mass matrix differ "
-      "by "
-      "{:.2g} from those of rigid rotation",
-      system.source, defect);
-  if (defect < kAllowed) {
-    system.notices.push_back(
-        text +
-        "; the coupling of large rotation and deformation has an error "
-        "of that size. More elements or lumped masses reduce it");
-    return;
-  }
-  throw InputError(
-      text +
-      ": it is not the mass of a field u = sum N_i u_i + theta_i x d_i. A mass "
-      "on an averaging connection (RBE3, distributing coupling) was condensed "
-      "into many nodes, or rotation rows are not about the axes of the "
-      "coordinates; connect it rigidly, or put it on a node of its own");
+      "by {:.2g} from those of rigid rotation",
+      part.system.source, part.block_defect);
 }
+
+constexpr double kSilentDefect = 2e-3;
+constexpr double kMostDefect = 0.1;
 
 }  // namespace
 
@@ -239,8 +224,24 @@ std::shared_ptr<const MatrixPart> make_matrix_part(fem::MatrixModel model,
   MassBlocks blocks(system);
   auto part = std::make_shared<MatrixPart>(MatrixPart{
       std::move(system), X, inertia, std::move(blocks), first.shift});
-  check_blocks(*part, part->system);
+  part->block_defect =
+      calc_block_defect(part->system, part->blocks, part->inertia);
+  if (part->block_defect >= kSilentDefect)
+    part->system.notices.push_back(
+        describe_defect(*part) +
+        "; the coupling of large rotation and deformation has an error of that "
+        "size. More elements or lumped masses reduce it");
   return part;
+}
+
+void require_field_mass(const MatrixPart& part) {
+  if (part.block_defect < kMostDefect) return;
+  throw InputError(
+      describe_defect(part) +
+      ": it is not the mass of a field u = sum N_i u_i + theta_i x d_i. The "
+      "elements are too few, a mass on an averaging connection (RBE3, "
+      "distributing coupling) was condensed into many nodes, or rotation rows "
+      "are not about the axes of the coordinates");
 }
 
 }  // namespace limber::flexbody

@@ -17,7 +17,8 @@ struct MatrixPart {
   MatrixX X;  ///< rigid motions about the centre of mass, rows x 6
   RigidInertia inertia;
   MassBlocks blocks;
-  double shift = 0.0;  ///< of the model without clamps [rad^2/s^2]
+  double shift = 0.0;         ///< of the model without clamps [rad^2/s^2]
+  double block_defect = 0.0;  ///< by calc_block_defect [-]
 };
 
 /// Checks that the matrices are those of a free structure at rest, in the
@@ -28,7 +29,7 @@ struct MatrixPart {
 ///   1e-6, projected with a notice below 1e-2;
 /// - no motion without stiffness besides;
 /// - M positive semidefinite, X^T M X that of a rigid body, its blocks those of
-///   a field (calc_block_defect): silent below 2e-3, a notice below 0.1;
+///   a field (calc_block_defect): silent below 2e-3;
 /// - digits of K: a notice where their rounding changes lambda_1 by 1e-4.
 ///
 /// @param mass of the whole model, as stated [kg] @param unit as
@@ -37,5 +38,9 @@ struct MatrixPart {
 [[nodiscard]] std::shared_ptr<const MatrixPart> make_matrix_part(
     fem::MatrixModel model, double mass, double unit,
     const Progress& progress = {});
+
+/// Checks that the blocks of M are those of a field well enough for the inertia
+/// of a body that deforms and rotates. @throws InputError above a defect of 0.1
+void require_field_mass(const MatrixPart& part);
 
 }  // namespace limber::flexbody

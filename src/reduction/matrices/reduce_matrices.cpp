@@ -131,6 +131,7 @@ std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,
 ReducedBody reduce_matrices(const Recipe& recipe,
                             const std::shared_ptr<const MatrixPart>& part,
                             const Progress& progress) {
+  require_field_mass(*part);
   report(progress, "factorising", 0.0);
   const MatrixBody meshed(recipe, part);
   const MatrixSystem& system = part->system;
