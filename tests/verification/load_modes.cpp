@@ -6,6 +6,7 @@
 #include <random>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/modal/static_modes.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "verification/shear_load.hpp"

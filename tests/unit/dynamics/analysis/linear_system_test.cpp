@@ -17,6 +17,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "support/elastic_kinds.hpp"
 #include "support/lattice_chain.hpp"

@@ -10,6 +10,7 @@
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "support/linked_bodies.hpp"
 

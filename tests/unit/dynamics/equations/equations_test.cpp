@@ -10,6 +10,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 

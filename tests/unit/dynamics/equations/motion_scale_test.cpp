@@ -7,6 +7,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics::motion_scale_test {
@@ -44,10 +45,10 @@ class MotionScaleTest : public ::testing::Test {
   static constexpr int kSmall = 0;
   static constexpr int kCloud = 1;
   [[nodiscard]] auto translation(int body, VectorX& x) const {
-    return translation_rows(model_.bodies[index(body)], x);
+    return translation_rows(model_.bodies[static_cast<std::size_t>(body)], x);
   }
   [[nodiscard]] auto rotation(int body, VectorX& x) const {
-    return rotation_rows(model_.bodies[index(body)], x);
+    return rotation_rows(model_.bodies[static_cast<std::size_t>(body)], x);
   }
   [[nodiscard]] auto modes(VectorX& x) const {
     return mode_rows(model_.bodies[kCloud], x);

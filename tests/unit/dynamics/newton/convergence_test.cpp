@@ -11,6 +11,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "limber/joints/bushing.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "support/chain.hpp"

@@ -328,12 +328,12 @@ LinkGraph make_row(const std::vector<int>& counts) {
 }
 
 /// (body, its parent's body or -1), as chosen.
-std::vector<std::pair<int, int>> find_hubs(const LinkGraph& graph) {
-  const std::vector<Hub> hubs = choose_retained_bodies(graph);
+std::vector<std::pair<int, int>> find_retained(const LinkGraph& graph) {
+  const std::vector<RetainedBody> retained = choose_retained_bodies(graph);
   std::vector<std::pair<int, int>> bodies;
-  for (const Hub& hub : hubs) {
-    bodies.emplace_back(hub.body,
-                        hub.parent < 0 ? -1 : hubs[index(hub.parent)].body);
+  for (const RetainedBody& one : retained) {
+    bodies.emplace_back(one.body,
+                        one.parent < 0 ? -1 : retained[index(one.parent)].body);
   }
   return bodies;
 }
@@ -342,51 +342,52 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Pair;
 
-TEST(Hubs, AreBodiesOfManyLinks) {
+TEST(RetainedBodies, AreBodiesOfManyLinks) {
   std::vector<int> all(20);
   std::iota(all.begin(), all.end(), 0);
   const std::vector<int> few = {0, 1, 2};
   const auto find = [](const std::vector<std::vector<int>>& links,
                        const std::vector<int>& blocks) {
-    return find_hubs(make_graph(links, blocks));
+    return find_retained(make_graph(links, blocks));
   };
   EXPECT_THAT(find({few, all}, {1, 1}), ElementsAre(Pair(1, -1)));
   EXPECT_THAT(find({all}, {0}), IsEmpty());
   EXPECT_THAT(find({few, all}, {1, 11}), IsEmpty());  // 60 modes
 }
 
-TEST(Hubs, ThatShareLinksHaveACommonAncestor) {
-  EXPECT_THAT(find_hubs(make_row({20, 20})),
+TEST(RetainedBodies, ThatShareLinksHaveACommonAncestor) {
+  EXPECT_THAT(find_retained(make_row({20, 20})),
               ElementsAre(Pair(1, -1), Pair(0, 1), Pair(2, 1)));
-  EXPECT_THAT(find_hubs(make_row({20, 20, 20, 20, 20, 20})),
+  EXPECT_THAT(find_retained(make_row({20, 20, 20, 20, 20, 20})),
               ElementsAre(Pair(1, -1), Pair(2, 1), Pair(3, 2), Pair(4, 3),
                           Pair(5, 4), Pair(0, 1)));
 }
 
-TEST(Hubs, AreNotBodiesBetweenTwoTrees) {
-  EXPECT_THAT(find_hubs(make_row({30, 20, 20, 30})),
+TEST(RetainedBodies, AreNotBodiesBetweenTwoTrees) {
+  EXPECT_THAT(find_retained(make_row({30, 20, 20, 30})),
               ElementsAre(Pair(1, -1), Pair(3, -1), Pair(0, 1), Pair(4, 3)));
 }
 
-TEST(Hubs, HaveNoParentInABodyThatIsClamped) {
+TEST(RetainedBodies, HaveNoParentInABodyThatIsClamped) {
   LinkGraph graph = make_row({20, 20});
   graph.moves[1] = false;
-  EXPECT_THAT(find_hubs(graph),
+  EXPECT_THAT(find_retained(graph),
               ElementsAre(Pair(1, -1), Pair(0, -1), Pair(2, -1)));
 }
 
 // Twice n b^2 + b^3 / 3 against n^3 / 3: 362 and 333 products of blocks for ten
 // links and 18 modes, 394 and 444 for eleven.
-TEST(Hubs, AreBodiesThatCostLessThanHalfOfTheirEliminatedLinks) {
+TEST(RetainedBodies, AreBodiesThatCostLessThanHalfOfTheirEliminatedLinks) {
   std::vector<int> links(10);
   std::iota(links.begin(), links.end(), 0);
   EXPECT_THAT(choose_retained_bodies(make_graph({links}, {4})), IsEmpty());
   links.push_back(10);
-  EXPECT_THAT(find_hubs(make_graph({links}, {4})), ElementsAre(Pair(0, -1)));
+  EXPECT_THAT(find_retained(make_graph({links}, {4})),
+              ElementsAre(Pair(0, -1)));
   EXPECT_THAT(choose_retained_bodies(make_graph({links}, {5})), IsEmpty());
 }
 
-TEST(Hubs, NeedSpaceInProportionToTheLinksBetweenThem) {
+TEST(RetainedBodies, NeedSpaceInProportionToTheLinksBetweenThem) {
   const auto count = [](int links) {
     return plan_lu(make_row({links, links}), {}).lu.stored_blocks();
   };

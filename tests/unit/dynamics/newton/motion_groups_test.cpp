@@ -9,6 +9,7 @@
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "support/paired_bodies.hpp"
 

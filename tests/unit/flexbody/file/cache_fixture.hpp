@@ -44,6 +44,7 @@ class Cache : public ::testing::Test {
     const std::string text = read_bytes(source.file);
     return {"mesh of " + text.substr(0, text.find("//")),
             {"a notice"},
+            {"found"},
             {stamp_content(source.file), stamp_version(library())},
             is_repeatable_};
   }
