@@ -115,6 +115,8 @@ ModelFileKind find_head_kind(const std::string& line) {
   const auto has = [&](std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
+  constexpr std::size_t kMostNames = 8;  // more words are a sentence
+  if (words.size() > kMostNames) return ModelFileKind::unknown;
   if ((has("ROW") || has("EQN")) && has("NODE"))
     return ModelFileKind::row_table;
   if (has("X") && has("Y") && has("Z")) return ModelFileKind::node_table;

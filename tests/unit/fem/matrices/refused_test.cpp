@@ -296,12 +296,15 @@ TEST(MatrixFiles, OthersInAFolderArePassedOverAndListed) {
   const fs::path folder = copy_sample("op4_dense");
   replace_text(folder / "README.md", "# A model\n\n* from a run\n\n1. one\n");
   replace_text(folder / "run.log", "*INFO: done\n12:30 1 2 3\n");
+  replace_text(folder / "errors",
+               "error: node 13 of row 13.1 has no coordinates. Expected it "
+               "among the nodes x, y and z.\n");
   replace_text(folder / "run.op2", std::string("\0\1\2", 3));
   replace_text(folder / "empty", "");
   fs::create_directory(folder / "deeper");
   EXPECT_THAT(read_matrices({{folder}}).found,
-              Contains("not recognised, not used: README.md, empty, run.log, "
-                       "run.op2"));
+              Contains("not recognised, not used: README.md, empty, errors, "
+                       "run.log, run.op2"));
   EXPECT_THROW(static_cast<void>(
                    read_matrices({{folder / "beam.op4", folder / "run.log"}})),
                InputError);
