@@ -150,7 +150,7 @@ class ModelMaker {
         to.insertBackByOuterInner(j, row) = value;
     }
     to.finalize();
-    source.matrix.entries = std::move(to);
+    source.matrix.entries.swap(to);
   }
 
   /// Nodes with a row, or that a constraint of the input file moves.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limber/fem/matrices/matrix_model.hpp"
@@ -16,7 +17,10 @@ struct RowLabel {
   /// 7 of warping): not known.
   int component = 0;
 
-  auto operator<=>(const RowLabel&) const = default;
+  bool operator==(const RowLabel&) const = default;
+  bool operator<(const RowLabel& other) const {
+    return std::pair(node, component) < std::pair(other.node, other.component);
+  }
 };
 
 /// "10.1" for node 10, translation along x.

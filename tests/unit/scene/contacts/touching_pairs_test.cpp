@@ -178,15 +178,16 @@ TEST(TouchingPairs, FlexibleLinksTouchWithTheirOwnMesh) {
 
 TEST(TouchingPairs, RefusesShapesThatItDoesNotKnowOfLinksThatContactsAskFor) {
   Robot robot = make_hand();
-  robot.links[1].collisions.emplace_back().geometry = OtherGeometry{"cone"};
+  robot.links[1].collisions.emplace_back().geometry = OtherGeometry{"torus"};
   EXPECT_THAT(list(touch({{"finger_2", "target"}}), robot),
               ElementsAre("1:finger_2/target"));
   for (const char* name : {"finger_1", "finger_*"}) {
     EXPECT_THAT(
         error_of(touch({{name, "target"}}), robot),
-        HasSubstr("link 'finger_1' has a <cone> in its <collision>, which "
+        HasSubstr("link 'finger_1' has a <torus> in its <collision>, which "
                   "contacts do not know; give <sphere>, <box>, <cylinder>, "
-                  "<capsule> or <mesh>, or make the link flexible"));
+                  "<capsule>, <cone>, <ellipsoid> or <mesh>, or make the "
+                  "link flexible"));
   }
 }
 

@@ -143,11 +143,11 @@ TEST(CollisionReader, ReadsSeveralShapesAndTheirPoses) {
 }
 
 TEST(CollisionReader, KeepsShapesOfOtherProgramsWithAWarning) {
-  const Robot robot = read(collision("<ellipsoid radii='1 2 3'/>"));
-  EXPECT_THAT(robot.warnings.at(0), HasSubstr("'ellipsoid' is not read"));
+  const Robot robot = read(collision("<torus radius='1'/>"));
+  EXPECT_THAT(robot.warnings.at(0), HasSubstr("'torus' is not read"));
   EXPECT_EQ(
       std::get<OtherGeometry>(robot.links[0].collisions.at(0).geometry).tag,
-      "ellipsoid");
+      "torus");
 }
 
 TEST(CollisionReader, TellsOfShapesThatAreNone) {
