@@ -177,7 +177,8 @@ void TimeLoop::fail(const SystemState& state, double h,
 }
 
 void TimeLoop::inspect(const SystemState& state) {
-  const auto excess = step_observer_.find_blow_up(state.t == settings_.end_time);
+  const auto excess =
+      step_observer_.find_blow_up(state.t == settings_.end_time);
   if (!excess) {
     if (!step_observer_.has_too_much()) sound_ = state;
     return;
@@ -223,8 +224,10 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
   const SystemTerms* smooth =
       statistics_.events.size() == events_before ? &stepper_.terms() : nullptr;
   step_observer_.include(state, smooth, stepper_.flows(),
-                 is_look_due(state, statistics_.steps + 1), statistics_.events);
-  contacts_.include(state, stepper_.touches(), step_observer_, stepper_.flows());
+                         is_look_due(state, statistics_.steps + 1),
+                         statistics_.events);
+  contacts_.include(state, stepper_.touches(), step_observer_,
+                    stepper_.flows());
 }
 
 void TimeLoop::tell(RunRecord& record) {
@@ -266,8 +269,9 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       clash_ = find_start_clash(model_, state, terms_, h_);
       peaks_.start(state);
       step_observer_.start(state, terms_, impulse ? impulse->dissipated : 0.0,
-                   statistics_.events);
-      contacts_.include(state, stepper_.touches(), step_observer_, stepper_.flows());
+                           statistics_.events);
+      contacts_.include(state, stepper_.touches(), step_observer_,
+                        stepper_.flows());
     }
     if (at_jump_) {
       stepper_.cross_jump(state, h_);
