@@ -212,6 +212,10 @@ void expand_nodes(const std::vector<ExpandedElement>& elements,
     }
     set.nodes.assign(replaced.begin(), replaced.end());
   }
+  // What "node:TAG" means of a node that is in no matrix.
+  for (const auto& [node, solid_nodes] : nodes)
+    model.sets.push_back({fmt::format("node:{}", node),
+                          {solid_nodes.begin(), solid_nodes.end()}});
   std::erase_if(model.elements, [&](const ModelElement& element) {
     return expanded.contains(element.corners[0]);
   });

@@ -14,20 +14,26 @@
 namespace limber::flexbody {
 namespace {
 
-int find_tagged(const MatrixSystem& system, std::size_t tag) {
+/// The node with this number, or those that a program put in its place.
+std::vector<int> find_tagged(const MatrixSystem& system, std::size_t tag) {
   const auto found = std::find(system.tags.begin(), system.tags.end(), tag);
-  if (found == system.tags.end())
-    throw InputError(
-        fmt::format("{}: no node has the number {}; expected one of the {} "
-                    "nodes of its table",
-                    system.source, tag, system.tags.size()));
-  return static_cast<int>(found - system.tags.begin());
+  if (found != system.tags.end())
+    return {static_cast<int>(found - system.tags.begin())};
+  const auto expanded = std::find_if(
+      system.sets.begin(), system.sets.end(),
+      [&](const auto& set) { return set.name == fmt::format("node:{}", tag); });
+  if (expanded != system.sets.end()) return expanded->nodes;
+  throw InputError(
+      fmt::format("{}: no node has the number {}; expected one of the {} "
+                  "nodes of its table",
+                  system.source, tag, system.tags.size()));
 }
 
-/// The node of "node:TAG"; -1 for any other text.
-int find_by_number(const MatrixSystem& system, const std::string& text) {
+/// The nodes of "node:TAG"; none for any other text.
+std::vector<int> find_by_number(const MatrixSystem& system,
+                                const std::string& text) {
   constexpr std::string_view kPrefix = "node:";
-  if (!text.starts_with(kPrefix)) return -1;
+  if (!text.starts_with(kPrefix)) return {};
   std::size_t tag = 0;
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data() + kPrefix.size(), end, tag);
@@ -72,24 +78,21 @@ int find_nearest(const MatrixSystem& system, const Vector3& point) {
 std::vector<int> select_matrix_nodes(const MatrixSystem& system,
                                      const NodeSelection& selection) {
   return std::visit(
-      Overloaded{[&](const GroupNodes& group) {
-                   return find_matrix_nodes(system, group.group);
-                 },
-                 [&](const TaggedNode& node) {
-                   return std::vector<int>{find_tagged(system, node.tag)};
-                 },
-                 [&](const NearestNode& node) {
-                   return std::vector<int>{find_nearest(system, node.point)};
-                 },
-                 [&](const auto& region) {
-                   return find_near(
-                       system,
-                       [&](const Vector3& p) {
-                         return calc_distance(region, p);
-                       },
-                       find_tolerance(region, system.size().maxCoeff()),
-                       describe(selection));
-                 }},
+      Overloaded{
+          [&](const GroupNodes& group) {
+            return find_matrix_nodes(system, group.group);
+          },
+          [&](const TaggedNode& node) { return find_tagged(system, node.tag); },
+          [&](const NearestNode& node) {
+            return std::vector<int>{find_nearest(system, node.point)};
+          },
+          [&](const auto& region) {
+            return find_near(
+                system,
+                [&](const Vector3& p) { return calc_distance(region, p); },
+                find_tolerance(region, system.size().maxCoeff()),
+                describe(selection));
+          }},
       selection);
 }
 
@@ -149,12 +152,11 @@ InterfaceMotion make_motion(const MatrixSystem& system,
 
 std::vector<int> find_matrix_nodes(const MatrixSystem& system,
                                    const std::string& set) {
-  const int node = find_by_number(system, set);
-  if (node >= 0) return {node};
+  if (auto nodes = find_by_number(system, set); !nodes.empty()) return nodes;
   std::vector<std::string> known;
   for (const fem::MatrixNodeSet& one : system.sets) {
     if (one.name == set && !one.nodes.empty()) return one.nodes;
-    known.push_back(one.name);
+    if (!one.name.starts_with("node:")) known.push_back(one.name);
   }
   throw InputError(
       fmt::format("{}: {}; a node is called by its number, as 'node:12'",

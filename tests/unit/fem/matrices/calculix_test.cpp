@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "limber/common/errors.hpp"
@@ -84,7 +85,7 @@ TEST(CalculixMatrices, ExpandedShellsHaveTheNodesOfTheirSolids) {
   EXPECT_LT(find_rigid_energy(model), 1e-10);
   EXPECT_THAT(model.triangles, SizeIs(20));
   // The edge's three nodes are eight of the solid.
-  ASSERT_THAT(model.sets, SizeIs(2));
+  ASSERT_THAT(model.sets, SizeIs(2 + 13));  // and one of each node
   EXPECT_EQ(model.sets[0].name, "EDGE");
   EXPECT_THAT(model.sets[0].nodes, SizeIs(8));
 }
@@ -99,6 +100,19 @@ TEST(CalculixMatrices, IncompatibleModesOfBeamsAreRowsOfUnknownKind) {
   EXPECT_EQ(unknown, 18);
   EXPECT_THAT(model.found, Contains("18 rows are of unknown kind"));
   EXPECT_LT(find_rigid_energy(model), 1e-10);
+}
+
+// Four corners of the section about the beam's node in the input file.
+TEST(CalculixMatrices, ANodeOfABeamMeansTheSolidsNodesAboutIt) {
+  const MatrixModel model = read_sample("calculix_beam");
+  const auto set = std::find_if(
+      model.sets.begin(), model.sets.end(),
+      [](const MatrixNodeSet& one) { return one.name == "node:2"; });
+  ASSERT_NE(set, model.sets.end());
+  ASSERT_THAT(set->nodes, SizeIs(4));
+  Vector3 mean = Vector3::Zero();
+  for (const int node : set->nodes) mean += 0.25 * model.x.col(node);
+  EXPECT_LT((mean - Vector3(0.5, 0.0, 0.1)).norm(), 1e-6);  // six digits
 }
 
 TEST(CalculixMatrices, ShellsNeedTheResultsOfAnotherRun) {
