@@ -83,10 +83,14 @@ async function main() {
     }
     const { near, map, far, fast, ghost } = scenes;
     assert.ok(new Set(near.pixels).size > 20, 'the picture is blank');
-    for (const other of [map, far]) {
+    // At 1e7 m positions are rounded to 1.9e-9 m, and Newton's corrections end in that noise:
+    // the motion itself differs by 1e-6 to 7e-6 m there, from machine to machine otherwise.
+    for (const [other, allowed] of [[map, 1e-6], [far, 1e-5]]) {
       assert.ok(shareOfDifferent(near.pixels, other.pixels) < 0.01, 'it looks different far away');
-      near.bodies.forEach((place, b) => place.forEach((value, c) =>
-        assert.ok(Math.abs(value - other.bodies[b][c]) < 1e-6, 'a body is elsewhere')));
+      near.bodies.forEach((place, b) => place.forEach((value, c) => {
+        const gap = value - other.bodies[b][c];
+        assert.ok(Math.abs(gap) < allowed, `body ${b} is elsewhere by ${gap} m`);
+      }));
     }
     assert.match(far.about, /positions count from \(10000000, 0, 0\) m/);
     assert.doesNotMatch(near.about, /positions count from/);
