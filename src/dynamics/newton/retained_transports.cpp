@@ -19,18 +19,18 @@ std::vector<std::vector<int>> find_retained_of_links(
     const std::size_t body = index(retained[one].body);
     if (graph.moves[body]) retained_of_body[body] = static_cast<int>(one);
   }
-  std::vector<std::vector<int>> hubs_of_link(index(graph.links));
+  std::vector<std::vector<int>> retained_of_link(index(graph.links));
   std::vector<bool> is_outside = graph.grounded;
   for (std::size_t body = 0; body < graph.links_of_body.size(); ++body) {
     for (const int link : graph.links_of_body[body]) {
-      hubs_of_link[index(link)].push_back(retained_of_body[body]);
+      retained_of_link[index(link)].push_back(retained_of_body[body]);
       if (retained_of_body[body] < 0) is_outside[index(link)] = true;
     }
   }
-  for (std::size_t link = 0; link < hubs_of_link.size(); ++link) {
-    if (is_outside[link]) hubs_of_link[link].clear();
+  for (std::size_t link = 0; link < retained_of_link.size(); ++link) {
+    if (is_outside[link]) retained_of_link[link].clear();
   }
-  return hubs_of_link;
+  return retained_of_link;
 }
 
 bool descends(const std::vector<RetainedBody>& retained, int one,
@@ -49,12 +49,13 @@ RetainedTransports::RetainedTransports(
       std::any_of(retained.begin(), retained.end(),
                   [](const RetainedBody& one) { return one.parent >= 0; });
   if (!has_children) return;
-  const std::vector<std::vector<int>> hubs_of_link =
+  const std::vector<std::vector<int>> retained_of_link =
       find_retained_of_links(graph, retained);
   // A rigid motion of the ancestor with all its descendants.
   const auto is_unaffected = [&](int row, int ancestor) {
-    if (row >= graph.links || hubs_of_link[index(row)].empty()) return false;
-    const std::vector<int>& ends = hubs_of_link[index(row)];
+    if (row >= graph.links || retained_of_link[index(row)].empty())
+      return false;
+    const std::vector<int>& ends = retained_of_link[index(row)];
     return std::all_of(ends.begin(), ends.end(), [&](int one) {
       return descends(retained, one, ancestor);
     });

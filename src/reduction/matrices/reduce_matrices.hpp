@@ -15,8 +15,8 @@ namespace limber::flexbody {
 [[nodiscard]] std::shared_ptr<const MatrixPart> read_matrix_part(
     const MeshSource& source, const Progress& progress = {});
 
-/// Modes, static-deformation modes and tables as of a mesh. The stored rows are
-/// translations of nodes, also of condensed ones.
+/// Modes, static-deformation modes and tables like those of a mesh. The stored
+/// rows are translations of nodes, also of condensed ones.
 /// @throws InputError as MatrixBody; NumericalError if an eigenpair or a solve
 /// misses its tolerance
 [[nodiscard]] ReducedBody reduce_matrices(
