@@ -6,11 +6,16 @@
 
 namespace limber {
 
+/// Independent of the locale; what is no letter of ASCII stays.
+[[nodiscard]] constexpr char to_upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 /// Independent of the locale; '?' for what is not ASCII.
 [[nodiscard]] inline std::string to_upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
     if (static_cast<unsigned char>(c) >= 0x80) return '?';
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return to_upper(c);
   });
   return text;
 }

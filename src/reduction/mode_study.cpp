@@ -99,19 +99,12 @@ ModeStudy study(const MatrixBody& body, const Recipe& recipe,
   return result;
 }
 
-template <typename Body>
-ModeStudy study_eigenmodes(const Body& body, const Recipe& recipe,
-                           const Progress& progress) {
-  return study(body, recipe, find_eigenmodes(body, recipe, progress), progress);
-}
-
-template <typename Body>
-ModeStudy study_whole_basis(const Body& body, const Recipe& recipe,
-                            const Progress& progress) {
-  const ReducedBasis basis =
-      join_basis(body, find_eigenmodes(body, recipe, progress),
-                 find_static_modes(body, recipe), recipe.basis.drop_tolerance);
-  return study(body, recipe, {basis.lambda, basis.Phi}, progress);
+/// `study` of the recipe's body, from matrices or from a mesh.
+template <typename Study>
+ModeStudy study_source(const Recipe& recipe, const Progress& progress,
+                       const Study& study) {
+  if (!recipe.mesh.is_matrices()) return study(MeshedBody(recipe, progress));
+  return study(MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)));
 }
 
 }  // namespace
@@ -131,19 +124,19 @@ PartMass find_part_mass(const Recipe& recipe, const Progress& progress) {
 }
 
 ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
-  if (recipe.mesh.is_matrices())
-    return study_eigenmodes(
-        MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)), recipe,
-        progress);
-  return study_eigenmodes(MeshedBody(recipe, progress), recipe, progress);
+  return study_source(recipe, progress, [&](const auto& body) {
+    return study(body, recipe, find_eigenmodes(body, recipe, progress),
+                 progress);
+  });
 }
 
 ModeStudy study_basis(const Recipe& recipe, const Progress& progress) {
-  if (recipe.mesh.is_matrices())
-    return study_whole_basis(
-        MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)), recipe,
-        progress);
-  return study_whole_basis(MeshedBody(recipe, progress), recipe, progress);
+  return study_source(recipe, progress, [&](const auto& body) {
+    const ReducedBasis basis = join_basis(
+        body, find_eigenmodes(body, recipe, progress),
+        find_static_modes(body, recipe), recipe.basis.drop_tolerance);
+    return study(body, recipe, {basis.lambda, basis.Phi}, progress);
+  });
 }
 
 }  // namespace limber::flexbody

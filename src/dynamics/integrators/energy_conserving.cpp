@@ -257,15 +257,9 @@ void EnergyConserving::turn_increments() {
 void EnergyConserving::apply_increments(double h, double share) {
   x_ *= share;
   add_to_applied(matrix_.wrench_increments(), mean_, share);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const Eigen::Index row = body.row;
-    middle_.etadot.segment(body.offset, body.modes) +=
-        x_.segment(row + 6, body.modes) / h;
-    if (!body.has_rigid_motion()) continue;
-    middle_.bodies[b].v_WB_W += x_.segment<3>(row) / h;
-    middle_.bodies[b].w_WB_B += x_.segment<3>(row + 3) / h;
-  }
+  get_velocities(model_, middle_, step_);
+  step_ += x_ / h;
+  set_velocities(model_, step_, middle_);
 }
 
 void EnergyConserving::set_motion(double h) {

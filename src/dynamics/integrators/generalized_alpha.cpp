@@ -370,9 +370,10 @@ void GeneralizedAlpha::converge_somehow(const SystemState& from, double h,
     const bool is_first = corrections == Corrections::by_factors;
     try {
       converge(from, h, end, keeps && is_first, corrections, result);
-      if (is_first) return;
-      course_.clear();
-      course_.slowest = 1.0;
+      if (!is_first) {
+        course_.clear();
+        course_.slowest = 1.0;
+      }
       return;
     } catch (const NumericalError&) {
       restore_wrenches();

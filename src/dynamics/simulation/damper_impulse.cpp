@@ -46,19 +46,6 @@ double find_target_rate(const Transmission& transmission,
   return sum.rate();
 }
 
-void add_velocities(const SystemModel& model, const VectorX& x,
-                    SystemState& state) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    state.etadot.segment(body.offset, body.modes) +=
-        kScale * mode_rows(body, x);
-    if (!body.has_rigid_motion()) continue;
-    state.bodies[b].v_WB_W += kScale * translation_rows(body, x);
-    state.bodies[b].w_WB_B += kScale * rotation_rows(body, x);
-  }
-  state.udot_H += kScale * nodal_rows(model, x);
-}
-
 /// Applies powers of X to velocities, by the factors of a Newton matrix whose
 /// increments are velocities / kScale and whose stiffness is the damping.
 class DamperFilter {
@@ -137,7 +124,9 @@ class DamperFilter {
     matrix_.factor(model_, stop(state), terms_, still_, {kScale / h_, kScale});
     matrix_.solve(model_, terms_, residual_, gaps_, x_);
     for (int i = 1; i < kPower; ++i) filter_increments();
-    add_velocities(model_, x_, state);
+    VectorX velocities = make_unknowns(model_);
+    get_velocities(model_, state, velocities);
+    set_velocities(model_, velocities + kScale * x_, state);
     static_assert(kPower > 1);  // wrenches of the last solve are M's loss
     double work = 0.0;
     for (std::size_t i = 0; i < targets_.size(); ++i) {

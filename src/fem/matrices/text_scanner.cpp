@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/upper_case.hpp"
 
 namespace limber::fem {
 namespace {
@@ -24,11 +25,7 @@ constexpr bool ends_word(char c) { return c == ',' || is_blank(c); }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-char upper_of(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-bool is_same_letter(char c, char upper) { return upper_of(c) == upper; }
+bool is_same_letter(char c, char upper) { return to_upper(c) == upper; }
 
 /// from_chars on the whole text; below the range of a double is zero.
 bool parse_plain(std::string_view text, double& value) {
@@ -50,7 +47,7 @@ std::string_view to_plain_exponent(std::string_view text,
   bool has_exponent = false;
   for (const char c : text) {
     if (size + 2 > buffer.size()) return {};
-    const char upper = upper_of(c);
+    const char upper = to_upper(c);
     const bool is_letter = upper == 'D' || upper == 'E';
     const bool is_sign = c == '+' || c == '-';
     if (is_letter || (is_sign && size > 0 && buffer[size - 1] != 'e')) {
@@ -156,7 +153,7 @@ bool contains_word(std::string_view text, std::string_view upper_word) {
 bool begins_with_word(std::string_view text, std::string_view upper_word) {
   return text.size() >= upper_word.size() &&
          std::equal(upper_word.begin(), upper_word.end(), text.begin(),
-                    [](char u, char c) { return upper_of(c) == u; });
+                    [](char u, char c) { return to_upper(c) == u; });
 }
 
 bool parse_whole(std::string_view text, long& value) {
@@ -192,7 +189,7 @@ int count_digits(std::string_view number) {
 FieldFormat parse_format(std::string_view text, std::string_view letters) {
   FieldFormat format;
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    if (letters.find(upper_of(text[i])) == std::string_view::npos ||
+    if (letters.find(to_upper(text[i])) == std::string_view::npos ||
         !is_digit(text[i + 1]))
       continue;
     std::size_t first = i;

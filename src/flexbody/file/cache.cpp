@@ -187,12 +187,7 @@ std::string recipe_key(const Recipe& recipe, const Piece& piece) {
   Digest digest;
   digest.add(find_piece_content("", piece));
   digest.add(std::filesystem::absolute(recipe.mesh.file).string());
-  digest.add(recipe.mesh.size);
-  digest.add(recipe.mesh.order);
-  digest.add(recipe.mesh.unit);
-  digest.add(recipe.mesh.matrices.mass);
-  for (const std::filesystem::path& path : recipe.mesh.matrices.paths)
-    digest.add(std::filesystem::absolute(path).string());
+  add_source_options(recipe.mesh, digest);
   digest.add(recipe.stress);
   add_request(recipe, digest);
   return digest.text();

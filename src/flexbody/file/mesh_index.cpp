@@ -35,12 +35,7 @@ std::string find_request(const MeshSource& mesh) {
   Digest digest;
   digest.add(std::filesystem::absolute(mesh.file).string());
   digest.add(std::filesystem::weakly_canonical(mesh.file, unknown).string());
-  digest.add(mesh.size);
-  digest.add(mesh.order);
-  digest.add(mesh.unit);
-  digest.add(mesh.matrices.mass);
-  for (const std::filesystem::path& path : mesh.matrices.paths)
-    digest.add(std::filesystem::absolute(path).string());
+  add_source_options(mesh, digest);
   return digest.text();
 }
 
@@ -50,6 +45,15 @@ std::filesystem::path find_index_place(const std::string& request,
 }
 
 }  // namespace
+
+void add_source_options(const MeshSource& source, Digest& digest) {
+  digest.add(source.size);
+  digest.add(source.order);
+  digest.add(source.unit);
+  digest.add(source.matrices.mass);
+  for (const std::filesystem::path& path : source.matrices.paths)
+    digest.add(std::filesystem::absolute(path).string());
+}
 
 std::filesystem::path read_mesh_file(const std::filesystem::path& record) {
   try {

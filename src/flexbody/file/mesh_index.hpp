@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/files/file_stamp.hpp"
+#include "limber/common/records/digest.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::flexbody {
@@ -24,6 +25,9 @@ struct MeshRecord {
   std::vector<FileStamp> files;    ///< opened or searched for in the making
   bool is_repeatable = false;      ///< whether it depends on these only
 };
+
+/// Adds all that a source states besides its file.
+void add_source_options(const MeshSource& source, Digest& digest);
 
 /// The record in `folder` of the mesh that `mesh` requests, if each of its
 /// files still matches its stamp: the same mesh would result again. Ignores an
