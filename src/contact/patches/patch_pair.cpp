@@ -92,9 +92,16 @@ Vector6 PatchPair::correct(const Vector6& elastic_W, const Vector6& motion,
   return elastic_W - (rise + elastic_W.dot(motion)) / length * weighted;
 }
 
-void PatchPair::add_missing(const PatchTouches& others,
+// Patches that only the bodies of an end of a step have.
+void PatchPair::add_missing(const PairBodies& bodies,
+                            const joints::PairResponse& at_bodies,
                             PatchTouches& touches) const {
-  for (const PatchTouch& other : others) {
+  const bool has_all =
+      std::ranges::all_of(at_bodies.parts(), [&](const joints::PairPart& part) {
+        return touches.find(part.index) != nullptr;
+      });
+  if (has_all) return;
+  for (const PatchTouch& other : finder_->find_patches(bodies, false)) {
     if (touches.find(other.index) != nullptr) continue;
     PatchTouch touch = other;
     touch.patch = finder_->evaluate(touch);
@@ -108,10 +115,6 @@ double PatchPair::find_energy(const PairBodies& bodies) const {
     energy += touch.patch.energy;
   }
   return energy;
-}
-
-double PatchPair::find_energy(const PatchTouch* touch) {
-  return touch != nullptr ? touch->patch.energy : 0.0;
 }
 
 PatchPoints PatchPair::place_points(const Patch& patch) const {
@@ -205,6 +208,8 @@ void PatchPair::evaluate(const PairBodies& bodies, const EvaluationTime& now,
     add_points(bodies, touch, points, out);
     points.set(response.wrench, out.points().size() - kPoints, out);
     out.energy += touch.patch.energy + response.energy;
+    out.add_part(
+        {touch.index, touch.patch.energy, response.energy, touch.A, touch.B});
     const double h = now.t - load_patch(find_slot(memory, touch.index)).time;
     if (h > 0.0) out.slip_power += response.slip_work / h;
     out.rubbed += response.rubbed;
@@ -215,13 +220,10 @@ void PatchPair::evaluate(const PairBodies& bodies, const EvaluationTime& now,
 void PatchPair::evaluate_over_step(const joints::PairStep& step,
                                    std::span<const double> memory,
                                    joints::PairResponse& out) const {
-  const PatchTouches begin = finder_->find_patches(step.begin, false);
-  const PatchTouches end = finder_->find_patches(step.end, false);
   PatchTouches touches = finder_->find_patches(step.middle, true);
   const std::size_t of_middle = touches.size();
-  // Patches that only an end has hold energy, too.
-  add_missing(begin, touches);
-  add_missing(end, touches);
+  add_missing(step.begin, step.at_begin, touches);
+  add_missing(step.end, step.at_end, touches);
   out.slip_power += find_released(touches, step.times.end, memory);
   if (touches.is_empty()) return;
   PatchMotion all;
@@ -241,13 +243,12 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     all.square += PatchLaw::find_square(touch.patch, motion / step.times.h);
     motions[i++] = motion;
   }
-  PatchMotion of_end;
-  if (!end.is_empty()) of_end = find_motion(step.end, end, memory);
   i = 0;
   for (const PatchTouch& touch : touches) {
-    const PatchTouch* first = begin.find(touch.index);
-    const PatchTouch* last = end.find(touch.index);
-    const double rise = find_energy(last) - find_energy(first);
+    const joints::PairPart* first = step.at_begin.find_part(touch.index);
+    const joints::PairPart* last = step.at_end.find_part(touch.index);
+    const double rise = (last != nullptr ? last->elastic_energy : 0.0) -
+                        (first != nullptr ? first->elastic_energy : 0.0);
     const PatchMemory before = load_patch(find_slot(memory, touch.index));
     const PairBodies parts{last ? last->A : touch.A, last ? last->B : touch.B};
     const double share = i < of_middle ? 1.0 : 0.5;
@@ -260,8 +261,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
                        .slip = find_slip(parts, before),
                        .way_by_motion = 2.0});
     // What friction takes from the bodies and its springs do not keep.
-    const double kept =
-        last != nullptr ? respond(*last, of_end, memory).energy : 0.0;
+    const double kept = last != nullptr ? last->friction_energy : 0.0;
     const double lost = law_.find_energy(before.friction) - kept -
                         step.times.h * response.friction_power;
     response.wrench.wrench_W.head<3>() +=

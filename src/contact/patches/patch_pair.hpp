@@ -77,10 +77,10 @@ class PatchPair final : public joints::PairInteraction,
  private:
   struct Nearest;
 
-  void add_missing(const PatchTouches& others, PatchTouches& touches) const;
+  void add_missing(const joints::PairBodies& bodies,
+                   const joints::PairResponse& at_bodies,
+                   PatchTouches& touches) const;
   [[nodiscard]] double find_energy(const joints::PairBodies& bodies) const;
-  // 0 of null [J].
-  [[nodiscard]] static double find_energy(const PatchTouch* touch);
   [[nodiscard]] Vector6 correct(const Vector6& elastic_W, const Vector6& motion,
                                 double rise) const;
   [[nodiscard]] Nearest find_nearest_parts(

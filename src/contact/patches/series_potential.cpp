@@ -55,7 +55,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
                                 bool has_derivatives) const {
   if (!has_layers_) return potential_.evaluate(bodies, has_derivatives);
   constexpr int kMost = 100;
-  constexpr double kTolerance = 1e-8;  // quadratic: 1e-16 after it
+  constexpr double kTolerance = 1e-6;  // far less after it
   constexpr double kRise = 1e-3;
   const Matrix3 of_A = turn(bodies.A.R_WB, R_A_);
   const Matrix3 R = of_A + turn(bodies.B.R_WB, R_B_);
@@ -94,8 +94,8 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
       if (i == 0) f = find_first_force(patch, R).value_or(f);
       continue;
     }
-    // The energy is stationary; the wrench is that at the end of the change.
-    patch.energy = energy;
+    // At the end of the change, to its second order.
+    patch.energy = energy + 0.5 * (gradient + last).dot(change);
     // Where A's own layer lets it give way, as B's does.
     patch.centre_W -= of_A * f;
     const Eigen::Matrix<double, 6, 3> coupling = patch.hessian_W.leftCols<3>();

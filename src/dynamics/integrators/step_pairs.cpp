@@ -89,7 +89,8 @@ void apply_pairs_over_step(const SystemModel& model, const SystemState& begin,
     const joints::PairBodies last = find_bodies(pair, end_terms.pairs);
     name_pair(pair.name, times.end, [&] {
       pair.law->evaluate_over_step(
-          {first, find_bodies(pair, terms.pairs), last, times},
+          {first, find_bodies(pair, terms.pairs), last, times,
+           begin_terms.pairs.responses[i], end_terms.pairs.responses[i]},
           memory_of(pair, begin), response);
       check_finite(response);
     });

@@ -57,7 +57,8 @@ struct ContactRecord {
   double duration = 0.0;     ///< from the first touch to the last leave, or to
                              ///< the end of the run [s]
   double touch_speed = 0.0;  ///< approach at the first touch [m/s]
-  double parting_speed = 0.0;    ///< at the last leave [m/s]
+  double approach_speed = 0.0;   ///< then, along the whole impulse [m/s]
+  double parting_speed = 0.0;    ///< likewise, at the last leave [m/s]
   bool has_parted = false;       ///< false: they touch at the end
   double impact_duration = 0.0;  ///< T_c of a free impact, expected [s]
   double rest_speed = 0.0;       ///< approach up to which it is no impact [m/s]
@@ -66,14 +67,14 @@ struct ContactRecord {
   /// Whether both approached each other faster than a contact at rest does.
   [[nodiscard]] bool is_impact() const { return touch_speed > rest_speed; }
 
-  /// Of both bodies' rigid motions, along the normals of the first touch and
-  /// the last leave, without vibration [-]. None if they touch at the end, no
+  /// Of both bodies' rigid motions along the line of the whole impulse of the
+  /// normal force, without vibration [-]. None if they touch at the end, no
   /// impact brought them together, or other motion did more than that: beyond 0
   /// to 1.5, as where a vibrating finger strikes what it hardly approaches.
   [[nodiscard]] std::optional<double> restitution() const {
     constexpr double kMost = 1.5;
     if (!has_parted || !is_impact()) return std::nullopt;
-    const double e = parting_speed / touch_speed;
+    const double e = parting_speed / approach_speed;
     if (!(e >= 0.0 && e <= kMost)) return std::nullopt;
     return e;
   }
@@ -83,8 +84,9 @@ constexpr auto fields_of(const ContactRecord*) {
   return list_fields("contact", "pair", "time [s]", "touches", "impulse [N s]",
                      "peak force [N]", "peak time [s]", "peak depth [m]",
                      "peak depth over radius", "duration [s]",
-                     "touch speed [m/s]", "parting speed [m/s]", "has parted",
-                     "impact duration [s]", "rest speed [m/s]", "energy");
+                     "touch speed [m/s]", "approach speed [m/s]",
+                     "parting speed [m/s]", "has parted", "impact duration [s]",
+                     "rest speed [m/s]", "energy");
 }
 
 }  // namespace limber::dynamics

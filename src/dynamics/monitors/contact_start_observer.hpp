@@ -113,6 +113,11 @@ class ContactStartObserver {
   [[nodiscard]] Impact find_impact(double h, double t) const;
   /// The shortest touch, an impact or not.
   [[nodiscard]] Impact find_touch_in(double h) const;
+  /// Both bodies at `state`, until its next call for this pair.
+  [[nodiscard]] joints::PairBodies find_bodies(std::size_t index,
+                                               const SystemState& state) {
+    return set_motion(pairs_[index], state);
+  }
   /// The touch at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);

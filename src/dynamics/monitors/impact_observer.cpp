@@ -19,9 +19,36 @@
 namespace limber::dynamics {
 namespace {
 
-Vector3 find_rigid_velocity(const joints::PairBody& body, const Vector3& p_W) {
-  const Vector3 w_W = body.R_WB * body.w_WB_B;
-  return body.v_WB_W + w_W.cross(p_W - body.p_WB);
+PairVelocities find_velocities(const joints::PairBodies& bodies) {
+  return {bodies.B.v_WB_W - bodies.A.v_WB_W, bodies.A.R_WB * bodies.A.w_WB_B,
+          bodies.B.R_WB * bodies.B.w_WB_B};
+}
+
+// Of A against B along a line at arms from both, towards B [m/s].
+double find_approach(const PairVelocities& velocities, const Vector3& arm_A_W,
+                     const Vector3& arm_B_W, const Vector3& normal_W) {
+  return normal_W.dot(velocities.w_A_W.cross(arm_A_W) -
+                      velocities.w_B_W.cross(arm_B_W) - velocities.v_WB_W);
+}
+
+double find_approach(const PairVelocities& velocities,
+                     const NormalImpulse& along) {
+  return find_approach(velocities, along.arm_A_W / along.sum,
+                       along.arm_B_W / along.sum, along.impulse_W.normalized());
+}
+
+NormalImpulse find_load(const joints::PairBodies& bodies,
+                        const joints::TouchReading& now) {
+  const double N = now.normal_force;
+  return {N, N * now.normal_W, N * (now.p_W - bodies.A.p_WB),
+          N * (now.p_W - bodies.B.p_WB)};
+}
+
+void add(const NormalImpulse& load, double h, NormalImpulse& out) {
+  out.sum += h * load.sum;
+  out.impulse_W += h * load.impulse_W;
+  out.arm_A_W += h * load.arm_A_W;
+  out.arm_B_W += h * load.arm_B_W;
 }
 
 constexpr double kLeastImpactSpeed = 1e-9;  // [m/s]
@@ -63,15 +90,6 @@ ImpactObserver::ImpactObserver(const SystemModel& model, IntegratorKind scheme,
       scheme_(scheme),
       rest_speed_(std::max(h * model.gravity_W.norm(), kLeastImpactSpeed)) {}
 
-double ImpactObserver::find_approach(const Pair& pair, const SystemState& state,
-                                     const Vector3& p_W,
-                                     const Vector3& normal_W) const {
-  const PairMotion motion = find_pair_motion(model_, pair, state);
-  const joints::PairBodies bodies = motion.bodies();
-  return normal_W.dot(find_rigid_velocity(bodies.A, p_W) -
-                      find_rigid_velocity(bodies.B, p_W));
-}
-
 void ImpactObserver::begin(std::size_t i, const SystemState& state,
                            ContactStartObserver& touches) {
   OngoingContact& pair = pairs_[i];
@@ -89,10 +107,14 @@ void ImpactObserver::begin(std::size_t i, const SystemState& state,
   pair.most_force = {};
   pair.most_depth = {};
   pair.own_error = pair.group_error = 0.0;
+  pair.impulse = {};
   record = {.pair = of.name, .time = state.t, .touches = 1};
   record.rest_speed = rest_speed_;
   record.impact_duration = touches.impact_duration(i);
-  record.touch_speed = find_approach(of, state, touch.p_W, touch.normal_W);
+  const joints::PairBodies bodies = touches.find_bodies(i, state);
+  pair.at_touch = find_velocities(bodies);
+  record.touch_speed = find_approach(pair.at_touch, touch.p_W - bodies.A.p_WB,
+                                     touch.p_W - bodies.B.p_WB, touch.normal_W);
 }
 
 void ImpactObserver::include(std::size_t i, const SystemState& state,
@@ -105,13 +127,13 @@ void ImpactObserver::include(std::size_t i, const SystemState& state,
   joints::TouchReading now;
   if (touches_now) now = touches.read(i, state);
   if (!touched) begin(i, state, touches);
-  if (touched) {
-    record.impulse += 0.5 * h * (pair.force + now.normal_force);
-  }
+  if (touched) add(pair.load, 0.5 * h, pair.impulse);
+  pair.load = {};
   if (now.normal_force > 0.0) {
-    pair.normal_W = now.normal_W;
-    pair.p_W = now.p_W;
+    pair.load = find_load(touches.find_bodies(i, state), now);
   }
+  if (touched) add(pair.load, 0.5 * h, pair.impulse);
+  record.impulse = pair.impulse.sum;
   const bool is_strongest = now.normal_force > record.peak_force;
   pair.most_force.include(now.normal_force, state.t);
   pair.most_depth.include(now.depth, state.t);
@@ -124,14 +146,15 @@ void ImpactObserver::include(std::size_t i, const SystemState& state,
                  std::numbers::pi * now.depth * now.depth / now.area);
   }
   if (is_strongest) keep_stiffest(state, record);
-  pair.force = now.normal_force;
   pair.is_touching = touches_now;
   record.has_parted = !touches_now;
   record.duration = state.t - record.time;
   if (touches_now) return;
   pair.left = state.t;
-  record.parting_speed = -find_approach(model_.pairs[touches.pair_of(i)], state,
-                                        pair.p_W, pair.normal_W);
+  if (!(pair.impulse.sum > 0.0)) return;
+  record.approach_speed = find_approach(pair.at_touch, pair.impulse);
+  record.parting_speed = -find_approach(
+      find_velocities(touches.find_bodies(i, state)), pair.impulse);
 }
 
 void ImpactObserver::balance(std::size_t i, std::size_t of, bool touched,

@@ -13,16 +13,42 @@
 
 namespace limber::dynamics {
 
+/// The impulse of a contact's normal force on B, and where it acts: its line
+/// does not change if both bodies move on at one velocity.
+struct NormalImpulse {
+  double sum = 0.0;                     ///< of the forces' sizes [N s]
+  Vector3 impulse_W = Vector3::Zero();  ///< [N s]
+  Vector3 arm_A_W = Vector3::Zero();    ///< from A, times the sizes [N s m]
+  Vector3 arm_B_W = Vector3::Zero();    ///< likewise
+};
+
+constexpr auto fields_of(const NormalImpulse*) {
+  return list_fields("normal impulse", "sum [N s]", "impulse [N s]",
+                     "arm of A [N s m]", "arm of B [N s m]");
+}
+
+/// Of both bodies' rigid motions.
+struct PairVelocities {
+  Vector3 v_WB_W = Vector3::Zero();  ///< of B's origin against A's [m/s]
+  Vector3 w_A_W = Vector3::Zero();   ///< [rad/s]
+  Vector3 w_B_W = Vector3::Zero();   ///< [rad/s]
+};
+
+constexpr auto fields_of(const PairVelocities*) {
+  return list_fields("velocities of a pair", "relative [m/s]", "A [rad/s]",
+                     "B [rad/s]");
+}
+
 /// A contact of a pair, from its first to its last touch.
 struct OngoingContact {
   bool is_touching = false;
-  double force = 0.0;                  ///< normal, at the last state [N]
-  double left = 0.0;                   ///< time of the last leave [s]
-  RefinedPeak most_force;              ///< of this record, normal [N]
-  RefinedPeak most_depth;              ///< of this record [m]
-  ContactRecord record = {};           ///< of no touches: there is none
-  Vector3 normal_W = Vector3::Zero();  ///< of the last force [-]
-  Vector3 p_W = Vector3::Zero();       ///< likewise [m]
+  double left = 0.0;          ///< time of the last leave [s]
+  RefinedPeak most_force;     ///< of this record, normal [N]
+  RefinedPeak most_depth;     ///< of this record [m]
+  ContactRecord record = {};  ///< of no touches: there is none
+  NormalImpulse load;         ///< its rates, at the last state
+  NormalImpulse impulse;      ///< of this record
+  PairVelocities at_touch;    ///< when it began
   ImpactEnergy before;  ///< at the first touch, since the start of the run
   /// Errors in the steps of this record (EnergyObserver::PairStep) [J].
   double own_error = 0.0;
@@ -30,10 +56,10 @@ struct OngoingContact {
 };
 
 constexpr auto fields_of(const OngoingContact*) {
-  return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
-                     "largest force [N]", "largest depth [m]", "record",
-                     "normal", "place [m]", "energies before", "own error [J]",
-                     "error of the group [J]");
+  return list_fields("ongoing contact", "is touching", "left [s]",
+                     "largest force [N]", "largest depth [m]", "record", "load",
+                     "impulse", "velocities at touch", "energies before",
+                     "own error [J]", "error of the group [J]");
 }
 
 /// Records every impact from the ends of all accepted steps.
@@ -78,10 +104,6 @@ class ImpactObserver {
              ContactStartObserver& touches);
   void balance(std::size_t index, std::size_t pair, bool touched, double t,
                const StepObserver& step_observer, const EnergyFlows& flows);
-  [[nodiscard]] double find_approach(const Pair& pair, const SystemState& state,
-                                     const Vector3& p_W,
-                                     const Vector3& normal_W) const;
-
   void keep_stiffest(const SystemState& state, const ContactRecord& record);
   void add_stable_step(std::vector<std::string>& warnings) const;
   void add_deep(const std::vector<ContactRecord>& records,

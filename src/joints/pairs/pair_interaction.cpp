@@ -35,7 +35,8 @@ PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B,
                            bool is_coupled)
     : all_(most_points),
       coupling_(is_coupled ? most_points * most_points : 0, Matrix3::Zero()),
-      damping_coupling_(coupling_) {
+      damping_coupling_(coupling_),
+      parts_(is_coupled ? most_points : 0) {
   for (PairPoint& point : all_) {
     point.on_A.Phi_B = Matrix3X::Zero(3, modes_A);
     point.on_B.Phi_B = Matrix3X::Zero(3, modes_B);
@@ -43,7 +44,7 @@ PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B,
 }
 
 void PairResponse::clear() {
-  count_ = 0;
+  count_ = part_count_ = 0;
   energy = dissipation = rubbed = slip_power = 0.0;
 }
 
@@ -68,6 +69,18 @@ PairPoint& PairResponse::add() {
     }
   }
   return point;
+}
+
+void PairResponse::add_part(const PairPart& part) {
+  if (part_count_ == parts_.size()) {
+    throw ContractError("PairResponse: more parts than the law may have");
+  }
+  parts_[part_count_++] = part;
+}
+
+const PairPart* PairResponse::find_part(std::size_t index) const {
+  const auto found = std::ranges::find(parts(), index, &PairPart::index);
+  return found == parts().end() ? nullptr : &*found;
 }
 
 std::size_t PairResponse::check_coupling(std::size_t i, std::size_t j) const {

@@ -71,6 +71,15 @@ struct PairPoint {
   Vector3 velocity_W = Vector3::Zero();
 };
 
+/// What a law found of one of the parts by which two bodies touch.
+struct PairPart {
+  std::size_t index = 0;         ///< of the part, by the law
+  double elastic_energy = 0.0;   ///< [J]
+  double friction_energy = 0.0;  ///< of its springs [J]
+  PairBody A;                    ///< the part, as a body without modes
+  PairBody B;                    ///< likewise
+};
+
 /// What a law answers: any number of points up to the law's, which may differ
 /// from one evaluation to the next. Takes all its memory when it is made.
 class PairResponse {
@@ -80,7 +89,7 @@ class PairResponse {
   PairResponse(std::size_t most_points, int modes_A, int modes_B,
                bool is_coupled = false);
 
-  /// No points, no energy, no coupling.
+  /// No points, no parts, no energy, no coupling.
   void clear();
   /// A further point, all zero, its tables of modes sized for both bodies.
   /// @throws ContractError beyond the law's number of points.
@@ -113,6 +122,15 @@ class PairResponse {
                                                 std::size_t j) const {
     return damping_coupling_[check_coupling(i, j)];
   }
+  /// For steps that begin or end at this state.
+  /// @throws ContractError beyond the law's number of points, and of points
+  /// that are not coupled.
+  void add_part(const PairPart& part);
+  [[nodiscard]] std::span<const PairPart> parts() const {
+    return {parts_.data(), part_count_};
+  }
+  /// Or null.
+  [[nodiscard]] const PairPart* find_part(std::size_t index) const;
   [[nodiscard]] bool is_coupled() const { return !coupling_.empty(); }
   /// Sets all of it to zero.
   void uncouple();
@@ -132,7 +150,9 @@ class PairResponse {
   std::vector<PairPoint> all_;
   std::vector<Matrix3> coupling_;  // of all pairs of points
   std::vector<Matrix3> damping_coupling_;
+  std::vector<PairPart> parts_;
   std::size_t count_ = 0;
+  std::size_t part_count_ = 0;
 };
 
 /// A step: both ends, and between them the mean of positions and of modal
@@ -143,6 +163,8 @@ struct PairStep {
   PairBodies middle;
   PairBodies end;
   StepTimes times;
+  const PairResponse& at_begin;  ///< the law's, with the same memory
+  const PairResponse& at_end;    ///< likewise
 };
 
 class Touching;

@@ -248,7 +248,7 @@ TEST(ContactRecord, HasARestitutionWhereRigidMotionsDescribeTheImpact) {
   dynamics::ContactRecord record;
   record.has_parted = true;
   record.rest_speed = 1e-3;
-  record.touch_speed = 0.1;
+  record.touch_speed = record.approach_speed = 0.1;
   const auto find_e = [&](double parting_speed) {
     record.parting_speed = parting_speed;
     return record.restitution();

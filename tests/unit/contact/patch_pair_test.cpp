@@ -112,16 +112,18 @@ TEST(PatchPair, BalancesTheEnergyOfAPatchThatOnlyOneEndHas) {
     const joints::PairBody A;
     const joints::PairBody& first = enters ? apart : deep;
     const joints::PairBody& last = enters ? deep : apart;
-    const joints::PairStep step{
-        {A, first}, {A, middle}, {A, last}, {0.0, 1e-5, 1e-5}};
-    const auto find_energy = [&](const joints::PairBody& B) {
+    const auto evaluate = [&](const joints::PairBody& B) {
       joints::PairResponse out(pair.most_points(), 0, 0, true);
       pair.evaluate({A, B}, {0.0, Side::right}, memory, out);
-      return out.energy;
+      return out;
     };
-    const double rise = find_energy(last) - find_energy(first);
+    const joints::PairResponse at_begin = evaluate(first);
+    const joints::PairResponse at_end = evaluate(last);
+    const joints::PairStep step{{A, first},        {A, middle}, {A, last},
+                                {0.0, 1e-5, 1e-5}, at_begin,    at_end};
+    const double rise = at_end.energy - at_begin.energy;
     ASSERT_GT(std::abs(rise), 0.0);
-    ASSERT_EQ(find_energy(middle), 0.0);
+    ASSERT_EQ(evaluate(middle).energy, 0.0);
     joints::PairResponse out(pair.most_points(), 0, 0, true);
     pair.evaluate_over_step(step, memory, out);
     double work = 0.0;

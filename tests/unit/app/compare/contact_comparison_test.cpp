@@ -16,7 +16,7 @@ dynamics::ContactRecord make_record(const std::string& pair, double impulse,
   record.impulse = impulse;
   record.peak_force = peak;
   record.duration = 0.5;
-  record.touch_speed = 1.0;
+  record.touch_speed = record.approach_speed = 1.0;
   record.parting_speed = parting;
   record.has_parted = true;
   return record;

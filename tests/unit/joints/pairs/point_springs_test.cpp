@@ -167,13 +167,19 @@ TEST_F(PointSpringsTest, OverAStepDoTheWorkThatTheirEnergyChanges) {
   const PairBody a0 = A_.at(0.0), a1 = A_end.at(h), a = A_middle.at(0.5 * h);
   const PairBody b0 = B_.at(0.0), b1 = B_end.at(h), b = B_middle.at(0.5 * h);
   springs.evaluate({a0, b0}, {0.0}, {}, out_);
-  const double before = out_.energy;
+  const PairResponse at_begin = out_;
   out_.clear();
   springs.evaluate({a1, b1}, {h}, {}, out_);
-  const double gained = out_.energy - before;
+  const PairResponse at_end = out_;
+  const double gained = at_end.energy - at_begin.energy;
   out_.clear();
-  springs.evaluate_over_step(
-      {{a0, b0}, {a, b}, {a1, b1}, {.begin = 0.0, .end = h, .h = h}}, {}, out_);
+  springs.evaluate_over_step({{a0, b0},
+                              {a, b},
+                              {a1, b1},
+                              {.begin = 0.0, .end = h, .h = h},
+                              at_begin,
+                              at_end},
+                             {}, out_);
   const Vector3 moved =
       find_position(b1, line.on_B) - find_position(a1, line.on_A) -
       find_position(b0, line.on_B) + find_position(a0, line.on_A);
