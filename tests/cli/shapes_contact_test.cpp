@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes other than balls that touch, as the command reports it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "cli/command.hpp"
@@ -209,6 +212,98 @@ TEST(BlockOnABox, HasNoRadiusOfItsOwn) {
   EXPECT_NE(result.errors.find("'radius' has no meaning for a box and a box"),
             std::string::npos)
       << result.errors;
+}
+
+// ---- a cone in a ring of twelve sides, which it meets at all of them
+
+void write_ring(const Workspace& place) {
+  constexpr int kSides = 12;
+  const auto corner = [](double radius, int k, double z) {
+    const double angle = 2.0 * std::numbers::pi * k / kSides;
+    return fmt::format("vertex {:.17g} {:.17g} {:.17g}\n",
+                       radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  std::string text = "solid ring\n";
+  const auto add = [&text](const std::string& a, const std::string& b,
+                           const std::string& c) {
+    text +=
+        "facet normal 0 0 0\nouter loop\n" + a + b + c + "endloop\nendfacet\n";
+  };
+  // Corners of a section, counterclockwise seen along the way around.
+  constexpr std::array<std::array<double, 2>, 4> kSection{
+      {{0.05, 0.0}, {0.08, 0.0}, {0.08, 0.03}, {0.05, 0.03}}};
+  for (int k = 0; k < kSides; ++k) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto [r, z] = kSection[i];
+      const auto [r_next, z_next] = kSection[(i + 1) % 4];
+      add(corner(r, k, z), corner(r, k + 1, z), corner(r_next, k + 1, z_next));
+      add(corner(r, k, z), corner(r_next, k + 1, z_next),
+          corner(r_next, k, z_next));
+    }
+  }
+  place.write("ring.stl", text + "endsolid ring\n");
+}
+
+void write_docking(const Workspace& place, double e, double aside) {
+  write_ring(place);
+  const auto write_robot = [&](const char* name, double mass,
+                               const std::string& origin,
+                               const std::string& shape) {
+    place.write(
+        fmt::format("{}.urdf", name),
+        fmt::format("<robot name='{0}'><link name='{0}'><inertial><mass "
+                    "value='{1}'/><inertia ixx='0.005' iyy='0.005' izz='0.009' "
+                    "ixy='0' ixz='0' iyz='0'/></inertial><collision>{2}"
+                    "<geometry>{3}</geometry></collision></link><contact "
+                    "link='{0}' youngs_modulus='3e9' poisson_ratio='0.3'/>"
+                    "</robot>",
+                    name, mass, origin, shape));
+  };
+  write_robot("probe", 0.5, "<origin rpy='3.141592653589793 0 0'/>",
+              "<cone radius='0.08' length='0.12'/>");
+  write_robot("ring", 2.0, "", "<mesh filename='ring.stl'/>");
+  place.write(
+      "scene.toml",
+      fmt::format("[[robot]]\nname = 'a'\nfile = 'probe.urdf'\nposition = "
+                  "[{}, 0.0, 0.05]\nvelocity = [0.0, 0.0, -0.2]\n"
+                  "[[robot]]\nname = 'b'\nfile = 'ring.urdf'\n"
+                  "[[contact]]\nbetween = ['a.probe', 'b.ring']\n"
+                  "friction = 0.0\nrestitution = {}\n"
+                  "[time]\nduration = 0.3\nstep = 1e-3\n"
+                  "[output]\npictures = false\n[[probe]]\nname = 'v'\n"
+                  "link = 'a.probe'\nquantity = 'velocity'\n",
+                  aside, e));
+}
+
+// v' = (m v - e M v) / (m + M), m of the cone.
+TEST(ConeInARing, LeapsBackAsItsRestitutionSays) {
+  for (const double e : {1.0, 0.5, 0.2}) {
+    const Workspace place;
+    write_docking(place, e, 0.0);
+    const CommandResult result = place.limber("run scene.toml --out o --json");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const json run = json::parse(result.out);
+    EXPECT_NEAR(run["probes"]["v.vz"]["final"].get<double>(),
+                -0.2 * (0.5 - 2.0 * e) / 2.5, 5e-4)
+        << e;
+    ASSERT_EQ(run["contacts"].size(), 1U) << e;
+    EXPECT_NEAR(run["contacts"][0]["restitution"].get<double>(), e, 5e-3);
+    EXPECT_LT(std::abs(run["contacts"][0]["energy"]["error"].get<double>()),
+              1e-9);
+  }
+}
+
+// Off its middle it strikes several times, at some of the sides each time.
+TEST(ConeInARing, HasTheRestitutionOfEachImpact) {
+  const Workspace place;
+  write_docking(place, 1.0, 4e-3);
+  const CommandResult result = place.limber("run scene.toml --out o --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json run = json::parse(result.out);
+  ASSERT_GE(run["contacts"].size(), 2U);
+  for (const json& impact : run["contacts"]) {
+    EXPECT_NEAR(impact["restitution"].get<double>(), 1.0, 5e-3);
+  }
 }
 
 }  // namespace

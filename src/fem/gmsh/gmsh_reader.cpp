@@ -13,7 +13,8 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/gmsh/bulk_mesh.hpp"
+#include "limber/fem/abaqus/solid_deck_reader.hpp"
+#include "limber/fem/gmsh/deck_mesh.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
 #include "limber/fem/gmsh/mesh_losses.hpp"
 #include "limber/fem/gmsh/mesh_size.hpp"
@@ -22,6 +23,7 @@
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/nastran/bulk_data.hpp"
 
 namespace limber::fem {
 namespace {
@@ -252,7 +254,9 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
       choose_unit(file, options.unit,
                   content ? content->unit : find_stated_unit(file), notices);
   if (kind == MeshFileKind::bulk_data)
-    return read_bulk_mesh(file, options.unit);
+    return make_deck_mesh(file, read_bulk_data(file), options.unit);
+  if (kind == MeshFileKind::input_deck)
+    return make_deck_mesh(file, read_solid_deck(file), options.unit);
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);

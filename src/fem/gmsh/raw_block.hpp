@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/mesh/solid_deck.hpp"
 
 namespace limber::fem {
 
@@ -19,19 +20,6 @@ struct RawMesh {
   /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
 };
-
-using Tags = std::vector<std::size_t>;
-
-/// Elements of one type as they are read, nodes by tag.
-struct RawBlock {
-  int type = 0;  ///< Gmsh's number
-  int nodes_each = 0;
-  Tags elements;
-  Tags nodes;
-  std::vector<int> regions;
-};
-/// By type.
-using RawBlocks = std::map<int, RawBlock>;
 
 /// Makes element types once and shares them.
 class ElementTypes {

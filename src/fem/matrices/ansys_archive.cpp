@@ -9,7 +9,7 @@
 #include <unordered_set>
 
 #include "limber/common/echo.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "limber/common/echo.hpp"
 #include "limber/common/index.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {

@@ -14,7 +14,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/upper_case.hpp"
 #include "limber/fem/matrices/matrix_entries.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "limber/common/upper_case.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {

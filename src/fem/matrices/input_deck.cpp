@@ -11,46 +11,15 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/upper_case.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/keyword_deck.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {
 
 using DeckShape = ModelElement::Shape;
 
-constexpr int kMostNestedInputs = 20;
 constexpr long kMostDeckNumber = 2'000'000'000;
-
-/// *NAME, PARAMETER=VALUE, ...: all in upper case but file names.
-struct Keyword {
-  std::string name;
-  std::map<std::string, std::string> parameters;
-
-  [[nodiscard]] bool has(const std::string& key) const {
-    return parameters.contains(key);
-  }
-  [[nodiscard]] std::string get(const std::string& key) const {
-    const auto found = parameters.find(key);
-    return found == parameters.end() ? std::string() : found->second;
-  }
-};
-
-Keyword parse_keyword(std::string_view line) {
-  Keyword keyword;
-  const std::vector<std::string_view> fields = split_commas(line);
-  keyword.name = to_upper(std::string(trim_blanks(fields[0].substr(1))));
-  for (std::size_t i = 1; i < fields.size(); ++i) {
-    const std::size_t equals = std::min(fields[i].find('='), fields[i].size());
-    const std::string key =
-        to_upper(std::string(trim_blanks(fields[i].substr(0, equals))));
-    const std::string_view value =
-        equals < fields[i].size() ? trim_blanks(fields[i].substr(equals + 1))
-                                  : std::string_view();
-    keyword.parameters[key] =
-        key == "INPUT" ? std::string(value) : to_upper(std::string(value));
-  }
-  return keyword;
-}
 
 /// By the beginning of its name; none: it is not drawn.
 std::optional<DeckShape> find_deck_shape(const std::string& type) {
@@ -76,7 +45,16 @@ class InputDeckReader {
   InputDeck read(const std::filesystem::path& file) {
     deck_.model.file = file;
     deck_.model.format = "input file";
-    read_file(file, 0);
+    read_keyword_deck(file,
+                      {[this](const TextScanner& at, const Keyword& keyword) {
+                         scanner_ = &at;
+                         begin(keyword);
+                         return is_used();
+                       },
+                       [this](const TextScanner& at, std::string_view line) {
+                         scanner_ = &at;
+                         add_data(line);
+                       }});
     finish_coupling();
     for (auto& [name, nodes] : sets_) {
       std::sort(nodes.begin(), nodes.end());
@@ -87,41 +65,6 @@ class InputDeckReader {
   }
 
  private:
-  void read_file(const std::filesystem::path& file, int depth) {
-    TextScanner scanner(file);
-    const TextScanner* const outer = scanner_;
-    scanner_ = &scanner;
-    while (scanner.next_text()) {
-      const std::string_view line = trim_blanks(scanner.line());
-      if (line.starts_with("**")) continue;
-      if (line.starts_with('*')) {
-        std::string whole(line);
-        while (whole.ends_with(',') && scanner.next_text())
-          whole += trim_blanks(scanner.line());
-        begin(parse_keyword(whole));
-        if (!keyword_.has("INPUT")) continue;
-        const std::filesystem::path part =
-            file.parent_path() / unquoted(keyword_.get("INPUT"));
-        // Data lines of *NODE, INPUT=, or a deck of its own of *INCLUDE.
-        if (!is_used()) continue;
-        if (depth == kMostNestedInputs)
-          scanner.fail(
-              "files include others too deep. Expected none that "
-              "includes itself.");
-        read_file(part, depth + 1);
-      } else {
-        add_data(line);
-      }
-    }
-    scanner_ = outer;
-  }
-
-  static std::string unquoted(std::string text) {
-    if (text.size() > 1 && text.front() == '"' && text.back() == '"')
-      return text.substr(1, text.size() - 2);
-    return text;
-  }
-
   [[nodiscard]] bool is_used() const {
     return keyword_.name == "INCLUDE" || keyword_.name == "NODE" ||
            keyword_.name == "ELEMENT" || keyword_.name == "NSET" ||

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "limber/fem/matrices/source_matrix.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 

@@ -8,7 +8,7 @@
 
 #include "limber/common/echo.hpp"
 #include "limber/fem/matrices/matrix_entries.hpp"
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 namespace limber::fem {
 namespace {

@@ -71,6 +71,21 @@ bool is_nastran(std::string_view head) {
   return has(text, "GRID") || has(text, "BEGIN BULK") || has(text, "INCLUDE ");
 }
 
+// Its first line that is no comment is a keyword.
+bool is_input_deck(std::string_view head) {
+  if (has(head, std::string_view("\0", 1))) return false;
+  while (!head.empty()) {
+    const std::string_view line = first_line(head);
+    const std::size_t start = line.find_first_not_of(" \t");
+    if (start != std::string_view::npos &&
+        !line.substr(start).starts_with("**")) {
+      return line[start] == '*';
+    }
+    head.remove_prefix(std::min(line.size() + 1, head.size()));
+  }
+  return false;
+}
+
 bool is_unv(std::string_view head) {
   const std::size_t start = head.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos) return false;
@@ -86,8 +101,8 @@ bool is_vtk(std::string_view head) {
 // A geometry program has no signature: any other text.
 bool is_geo(std::string_view head) {
   if (head.find('\0') != std::string_view::npos) return false;
-  return !head.starts_with("$") && !is_step(head) && !is_brep(head) &&
-         !is_med(head) && !is_vtk(head);
+  return !head.starts_with("$") && !is_input_deck(head) && !is_step(head) &&
+         !is_brep(head) && !is_med(head) && !is_vtk(head);
 }
 
 /// A file format, with its part of kMeshFileExtensions.
@@ -106,6 +121,7 @@ const std::vector<Format>& formats() {
       {{".brep"}, "OpenCASCADE geometry", geometry, is_brep},
       {{".iges", ".igs"}, "IGES geometry", geometry, is_iges},
       {{".bdf", ".nas", ".dat"}, "Nastran mesh", bulk_data, is_nastran},
+      {{".inp"}, "input file of Abaqus or CalculiX", input_deck, is_input_deck},
       {{".unv"}, "I-deas mesh", universal, is_unv},
       {{".med"}, "MED mesh", mesh, is_med},
       {{".vtk"}, "VTK mesh", mesh, is_vtk},

@@ -9,10 +9,10 @@
 
 namespace limber::fem {
 
-/// Whether a file holds nodes and elements, as a Nastran deck, an I-deas
-/// universal file or in another format that Gmsh reads, or a geometry to be
-/// meshed.
-enum class MeshFileKind { mesh, bulk_data, universal, geometry };
+/// Whether a file holds nodes and elements, as a Nastran deck, an input file of
+/// Abaqus or CalculiX, an I-deas universal file or in another format that Gmsh
+/// reads, or a geometry to be meshed.
+enum class MeshFileKind { mesh, bulk_data, input_deck, universal, geometry };
 
 /// By the file's extension, which must agree with how its content begins: Gmsh
 /// runs any unrecognised content as a geometry program.
@@ -27,9 +27,9 @@ enum class MeshFileKind { mesh, bulk_data, universal, geometry };
 [[nodiscard]] double find_stated_unit(const std::filesystem::path& file);
 
 /// All known extensions, in lower case.
-inline constexpr std::array<std::string_view, 13> kMeshFileExtensions = {
+inline constexpr std::array<std::string_view, 14> kMeshFileExtensions = {
     ".msh", ".geo", ".step", ".stp", ".brep", ".iges", ".igs",
-    ".bdf", ".nas", ".dat",  ".unv", ".med",  ".vtk"};
+    ".bdf", ".nas", ".dat",  ".inp", ".unv",  ".med",  ".vtk"};
 
 /// @throws InputError naming every option that is out of range or does not
 /// apply to a finished mesh.

@@ -46,7 +46,7 @@ class BulkReader {
   explicit BulkReader(const std::filesystem::path& file)
       : deck_(read_deck(file)), problems_(deck_), grids_(problems_) {}
 
-  BulkData read() {
+  SolidDeck read() {
     CardReader reader(deck_, problems_);
     BulkCard card;
     while (reader.next(card)) add(card);
@@ -55,6 +55,7 @@ class BulkReader {
     set_positions();
     problems_.check();
     report_unused();
+    name_regions();
     return std::move(data_);
   }
 
@@ -113,21 +114,15 @@ class BulkReader {
     }
     const bool is_linear =
         nodes->size() == static_cast<std::size_t>(solid.corners);
-    BulkSolids& block =
-        find_block(is_linear ? solid.linear_type : solid.quadratic_type);
+    const int type = is_linear ? solid.linear_type : solid.quadratic_type;
+    RawBlock& block = data_.solids[type];
+    block.type = type;
     block.nodes_each = static_cast<int>(nodes->size());
     block.elements.push_back(static_cast<std::size_t>(*id));
-    block.properties.push_back(*property);
+    block.regions.push_back(*property);
     for (std::size_t i = 0; i < nodes->size(); ++i)
       block.nodes.push_back((*nodes)[static_cast<std::size_t>(solid.order[i])]);
-    lines_[block.gmsh_type].push_back(card.line);
-  }
-
-  BulkSolids& find_block(int gmsh_type) {
-    for (BulkSolids& block : data_.solids)
-      if (block.gmsh_type == gmsh_type) return block;
-    data_.solids.emplace_back().gmsh_type = gmsh_type;
-    return data_.solids.back();
+    lines_[type].push_back(card.line);
   }
 
   /// All corners, and all or none of the mid-side nodes.
@@ -202,7 +197,7 @@ class BulkReader {
     std::vector<int> ids;
     for (const auto& [id, grid] : grids_.grids()) ids.push_back(id);
     std::sort(ids.begin(), ids.end());
-    data_.grids.assign(ids.begin(), ids.end());
+    data_.nodes.assign(ids.begin(), ids.end());
     data_.x.resize(3, static_cast<Eigen::Index>(ids.size()));
     for (std::size_t i = 0; i < ids.size(); ++i)
       data_.x.col(static_cast<Eigen::Index>(i)) =
@@ -212,8 +207,8 @@ class BulkReader {
 
   /// Every element's nodes are there.
   void check_nodes() {
-    for (const BulkSolids& block : data_.solids) {
-      const std::vector<const DeckLine*>& lines = lines_[block.gmsh_type];
+    for (const auto& [type, block] : data_.solids) {
+      const std::vector<const DeckLine*>& lines = lines_[type];
       const auto each = static_cast<std::size_t>(block.nodes_each);
       for (std::size_t i = 0; i < block.nodes.size(); ++i) {
         used_.insert(static_cast<int>(block.nodes[i]));
@@ -264,7 +259,7 @@ class BulkReader {
     constexpr std::size_t kListed = 5;
     std::vector<std::size_t> unused;
     std::copy_if(
-        data_.grids.begin(), data_.grids.end(), std::back_inserter(unused),
+        data_.nodes.begin(), data_.nodes.end(), std::back_inserter(unused),
         [&](std::size_t id) { return !used_.contains(static_cast<int>(id)); });
     if (unused.empty()) return;
     const auto listed =
@@ -272,15 +267,31 @@ class BulkReader {
     data_.notices.push_back(fmt::format(
         "{}: {} of {} GRIDs belong to no solid element and are left out: "
         "{}{}.",
-        deck_.files[0].string(), unused.size(), data_.grids.size(),
+        deck_.files[0].string(), unused.size(), data_.nodes.size(),
         fmt::join(unused.begin(), unused.begin() + listed, ", "),
         unused.size() > kListed ? " ..." : ""));
   }
 
-  void report_materials() {
+  [[nodiscard]] std::set<int> find_properties() const {
     std::set<int> properties;
-    for (const BulkSolids& block : data_.solids)
-      properties.insert(block.properties.begin(), block.properties.end());
+    for (const auto& [type, block] : data_.solids)
+      properties.insert(block.regions.begin(), block.regions.end());
+    return properties;
+  }
+
+  /// In place of the PIDs as regions.
+  void name_regions() {
+    std::map<int, int> regions;
+    for (const int property : find_properties()) {
+      regions[property] = static_cast<int>(data_.region_groups.size());
+      data_.region_groups.push_back({std::to_string(property)});
+    }
+    for (auto& [type, block] : data_.solids)
+      for (int& region : block.regions) region = regions[region];
+  }
+
+  void report_materials() {
+    const std::set<int> properties = find_properties();
     std::set<std::string> used;
     for (const int property : properties) used.insert(materials_[property]);
     if (used.size() < 2) return;
@@ -293,7 +304,7 @@ class BulkReader {
   Deck deck_;
   DeckProblems problems_;
   GridTable grids_;
-  BulkData data_;
+  SolidDeck data_;
   std::map<int, std::vector<const DeckLine*>> lines_;  // of data_.solids
   std::unordered_set<int> elements_;
   std::unordered_set<int> used_;
@@ -306,7 +317,7 @@ class BulkReader {
 
 }  // namespace
 
-BulkData read_bulk_data(const std::filesystem::path& file) {
+SolidDeck read_bulk_data(const std::filesystem::path& file) {
   return BulkReader(file).read();
 }
 

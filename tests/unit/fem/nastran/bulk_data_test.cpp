@@ -30,7 +30,7 @@ std::string deck(const std::string& cards) {
   return "SOL 103\nCEND\nBEGIN BULK\n" + cards + "ENDDATA\n";
 }
 
-BulkData read_cards(const std::string& cards) {
+SolidDeck read_cards(const std::string& cards) {
   return read_bulk_data(write_file("deck.bdf", deck(cards)));
 }
 
@@ -56,12 +56,13 @@ const std::string kTetra = kGrids + "CTETRA,1,1,1,2,3,4\n";
 class ElementForm : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ElementForm, IsReadWithAllItsNodes) {
-  const BulkData data = read_cards(kGrids + kMiddles + GetParam());
+  const SolidDeck data = read_cards(kGrids + kMiddles + GetParam());
   ASSERT_EQ(data.solids.size(), 1U);
-  EXPECT_EQ(data.solids[0].gmsh_type, 11);
-  EXPECT_THAT(data.solids[0].elements, ElementsAre(77));
-  EXPECT_THAT(data.solids[0].properties, ElementsAre(3));
-  EXPECT_THAT(data.solids[0].nodes, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 10, 9));
+  EXPECT_EQ(data.solids.at(11).type, 11);
+  EXPECT_THAT(data.solids.at(11).elements, ElementsAre(77));
+  EXPECT_THAT(data.region_groups, ElementsAre(ElementsAre("3")));
+  EXPECT_THAT(data.solids.at(11).nodes,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 10, 9));
   EXPECT_THAT(data.notices, IsEmpty());
 }
 
@@ -88,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         "       ABC\n+BC     7       8       9       10\n"));
 
 TEST(BulkData, NumbersHaveNastransForms) {
-  const BulkData data = read_cards(
+  const SolidDeck data = read_cards(
       "GRID,1,,7.+1,-1.5-3,1.D2\nGRID           2        2.5E+1     .25  -4.e-1"
       "\nGRID*                  3                              0."
       "   1.23456789012\n*                -1.5D-1\nGRID,4,,+1.,0,\n"
@@ -97,13 +98,13 @@ TEST(BulkData, NumbersHaveNastransForms) {
   EXPECT_EQ(data.x.col(1), Vector3(25.0, 0.25, -0.4));
   EXPECT_EQ(data.x.col(2), Vector3(0.0, 1.23456789012, -0.15));
   EXPECT_EQ(data.x.col(3), Vector3(1.0, 0.0, 0.0));
-  EXPECT_THAT(data.solids[0].properties, ElementsAre(1));  // PID: its EID
+  EXPECT_THAT(data.region_groups, ElementsAre(ElementsAre("1")));  // its EID
 }
 
 TEST(BulkData, CoordinateSystemsLeadToTheBasicOne) {
   // 7: cylindrical about y through (1, 0, 0), angles from z on. 8: rectangular,
   // given in 7's coordinates. 9: spherical by the grids 1, 2, 3: basic axes.
-  const BulkData data = read_cards(
+  const SolidDeck data = read_cards(
       "GRDSET,,7\n"
       "CORD2C,7,0,1.,0.,0.,1.,1.,0.\n,1.,0.,1.\n"
       "CORD2R,8,7,2.,90.,0.,2.,90.,1.\n,3.,90.,0.\n"
@@ -128,9 +129,9 @@ TEST(BulkData, IncludedFilesStandInTheirPlace) {
   write_file("part/grids.inc", "include 'more.inc'\nGRID,1,,0.,0.,0.\n");
   write_file("part/more.inc",
              "GRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n");
-  const BulkData data =
+  const SolidDeck data =
       read_cards("Include \"part/grids.inc\"\nCTETRA,1,1,1,2,3,4\n");
-  EXPECT_THAT(data.grids, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(data.nodes, ElementsAre(1, 2, 3, 4));
   write_file("part/more.inc", "include 'grids.inc'\n");
   EXPECT_THAT(find_error(deck("INCLUDE part/grids.inc\n")),
               AllOf(HasSubstr("nested"), HasSubstr(".inc:1:")));
@@ -215,8 +216,8 @@ TEST(BulkData, ATruncatedDeckIsRefused) {
 
 TEST(BulkData, WithoutBeginBulkAllIsBulkData) {
   const auto file = write_file("punch.bdf", kTetra);
-  const BulkData data = read_bulk_data(file);
-  EXPECT_EQ(data.grids.size(), 4U);
+  const SolidDeck data = read_bulk_data(file);
+  EXPECT_EQ(data.nodes.size(), 4U);
   EXPECT_THAT(data.notices, ElementsAre(HasSubstr("no ENDDATA")));
 }
 
@@ -232,7 +233,7 @@ TEST(BulkData, OtherTextAndBinariesAreRefused) {
 }
 
 TEST(BulkData, CardsAndGridsWithoutEffectAreReported) {
-  const BulkData data = read_cards(
+  const SolidDeck data = read_cards(
       kTetra +
       "GRID,21,,9.,9.,9.\nGRID,22,,9.,9.,9.,,123\nSPC1,1,123,1\nSPC1,1,123,2\n"
       "FORCE,1,4,0,1.,0.,0.,1.\nMAT1,1,7.+10,,.3,2700.\nPARAM,POST,-1\n"
@@ -250,7 +251,7 @@ TEST(BulkData, CardsAndGridsWithoutEffectAreReported) {
 /// want of names. With properties they are parts of the structure.
 TEST(BulkData, ShellsAreMarksOfTheSurfaceInADeckWithoutAnyProperties) {
   const std::string marks = "CTRIA3,9,2,1,2,3\nCBAR,10,2,1,2\n";
-  const BulkData data = read_cards(kTetra + marks);
+  const SolidDeck data = read_cards(kTetra + marks);
   EXPECT_EQ(data.solids.size(), 1U);
   EXPECT_THAT(data.notices, ElementsAre(AllOf(HasSubstr("1 CBAR (line 10)"),
                                               HasSubstr("1 CTRIA3"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/fem/matrices/text_scanner.hpp"
+#include "limber/fem/text/text_scanner.hpp"
 
 #include <fmt/format.h>
 

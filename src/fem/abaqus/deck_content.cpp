@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/abaqus/deck_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/upper_case.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// Of a body; they would be lost.
+constexpr std::array<std::string_view, 14> kConstraints = {
+    "EQUATION",
+    "MPC",
+    "TIE",
+    "RIGID BODY",
+    "COUPLING",
+    "KINEMATIC COUPLING",
+    "DISTRIBUTING COUPLING",
+    "EMBEDDED ELEMENT",
+    "SHELL TO SOLID COUPLING",
+    "CYCLIC SYMMETRY MODEL",
+    "CONTACT PAIR",
+    "CONTACT",
+    "PRE-TENSION SECTION",
+    "SUBSTRUCTURE PROPERTY"};
+
+/// They make or move nodes and elements.
+constexpr std::array<std::string_view, 7> kGenerators = {
+    "SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"};
+
+/// Of the scene.
+constexpr std::array<std::string_view, 12> kOutside = {
+    "BOUNDARY",    "CLOAD",       "DLOAD",
+    "DSLOAD",      "TEMPERATURE", "INITIAL CONDITIONS",
+    "BASE MOTION", "FILM",        "RADIATE",
+    "CFLUX",       "DFLUX",       "MODEL CHANGE"};
+
+template <typename List>
+bool has_keyword(const List& list, std::string_view name) {
+  return std::ranges::find(list, name) != list.end();
+}
+
+std::string find_place(const TextScanner& at) {
+  return fmt::format("{}:{}", at.file().string(), at.number());
+}
+
+void count(const TextScanner& at, const std::string& what, DeckCounts& counts) {
+  DeckCount& entry = counts[what];
+  if (entry.count++ == 0) entry.first = find_place(at);
+}
+
+class ContentReader {
+ public:
+  DeckContent read(const std::filesystem::path& file) {
+    read_keyword_deck(file,
+                      {[this](const TextScanner& at, const Keyword& keyword) {
+                         begin(at, keyword);
+                         return is_used();
+                       },
+                       [this](const TextScanner& at, std::string_view line) {
+                         add_data(at, line);
+                       }});
+    if (!element_.empty())
+      throw InputError(fmt::format(
+          "{}: the last element is not complete. Expected more nodes.",
+          file.string()));
+    return std::move(deck_);
+  }
+
+ private:
+  [[nodiscard]] bool is_used() const {
+    constexpr std::array<std::string_view, 6> kUsed = {
+        "INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"};
+    return has_keyword(kUsed, keyword_.name);
+  }
+
+  void begin(const TextScanner& at, const Keyword& keyword) {
+    if (!element_.empty())
+      at.fail("the element before it is not complete. Expected more nodes.");
+    keyword_ = keyword;
+    const std::string& name = keyword_.name;
+    for (const char* key : {"ELSET", "NSET", "NAME"})
+      if (keyword_.has(key))
+        deck_.spelling.try_emplace(keyword_.get(key), keyword_.spelled[key]);
+    if (has_keyword(kGenerators, name) ||
+        (name == "NODE" && keyword_.has("SYSTEM") &&
+         keyword_.get("SYSTEM") != "R"))
+      at.fail(fmt::format(
+          "*{} makes or moves nodes. Expected all of them, in the global axes, "
+          "under *NODE and *ELEMENT.",
+          echo(name)));
+    if (name == "INSTANCE" && ++instances_ > 1)
+      at.fail("a second *INSTANCE. Expected one part of one instance.");
+    if (has_keyword(kConstraints, name))
+      count(at, "*" + name, deck_.constraints);
+    if (has_keyword(kOutside, name)) count(at, "*" + name, deck_.unused);
+    if (name.ends_with("SECTION") && keyword_.has("ELSET"))
+      deck_.sections.push_back(
+          {keyword_.get("ELSET"), keyword_.get("MATERIAL")});
+    if (name.ends_with("SECTION") && keyword_.has("ORIENTATION"))
+      count(at, "*ORIENTATION of a section", deck_.unused);
+    if (name == "MATERIAL") material_ = keyword_.get("NAME");
+    if (name == "ELASTIC" && keyword_.has("TYPE") &&
+        !keyword_.get("TYPE").starts_with("ISO"))
+      deck_.materials[material_].is_isotropic = false;
+    if (name == "SURFACE" && keyword_.has("TYPE") &&
+        keyword_.get("TYPE") == "NODE")
+      keyword_.name = "SURFACE OF NODES";
+    if (name == "NSET" && keyword_.has("ELSET"))
+      deck_.nodes_of.push_back(keyword_);
+  }
+
+  void add_data(const TextScanner& at, std::string_view line) {
+    const std::string& name = keyword_.name;
+    if (name == "NODE") {
+      add_node(at, line);
+    } else if (name == "ELEMENT") {
+      add_element(at, line);
+    } else if (name == "NSET") {
+      deck_.node_sets.add_line(at, keyword_, keyword_.get("NSET"), line);
+    } else if (name == "ELSET") {
+      deck_.element_sets.add_line(at, keyword_, keyword_.get("ELSET"), line);
+    } else if (name == "SURFACE") {
+      add_surface(at, line);
+    } else if (name == "ELASTIC" &&
+               deck_.materials[material_].elastic.empty()) {
+      deck_.materials[material_].elastic = echo(line);
+    } else if (name == "INSTANCE") {
+      at.fail(
+          "*INSTANCE moves its part. Expected one that is not moved; write a "
+          "flat input file.");
+    }
+  }
+
+  void add_node(const TextScanner& at, std::string_view line) {
+    const std::vector<std::string_view> fields = split_commas(line);
+    const long number = read_deck_number(at, fields[0], "node");
+    Vector3 x = Vector3::Zero();
+    for (std::size_t i = 1; i < std::min<std::size_t>(fields.size(), 4); ++i) {
+      double value = 0.0;
+      if (!fields[i].empty() && !parse_real(fields[i], value))
+        at.fail(fmt::format("'{}' is no finite number. Expected one.",
+                            echo(fields[i])));
+      x[static_cast<Eigen::Index>(i) - 1] = value;
+    }
+    if (!deck_.nodes.emplace(static_cast<std::size_t>(number), x).second)
+      at.fail(fmt::format("node {} is there twice. Expected each node once.",
+                          number));
+    deck_.node_sets.add(keyword_.get("NSET"), number);
+  }
+
+  /// Number, nodes; a line that ends in a comma goes on.
+  void add_element(const TextScanner& at, std::string_view line) {
+    for (const std::string_view field : split_commas(line))
+      if (!field.empty())
+        element_.push_back(read_deck_number(at, field, "element or node"));
+    if (line.ends_with(',') || element_.empty()) return;
+    DeckElement element{.number = static_cast<std::size_t>(element_[0]),
+                        .type = *deck_.types.insert(keyword_.get("TYPE")).first,
+                        .solid = find_solid_type(keyword_.get("TYPE")),
+                        .nodes = {element_.begin() + 1, element_.end()},
+                        .file = find_file(at),
+                        .line = at.number()};
+    element_.clear();
+    deck_.element_sets.add(keyword_.get("ELSET"),
+                           static_cast<long>(element.number));
+    if (!deck_.index.emplace(element.number, deck_.elements.size()).second)
+      at.fail(fmt::format(
+          "element {} is there twice. Expected a number of its own.",
+          element.number));
+    if (element.solid != nullptr) check_solid(at, element);
+    deck_.elements.push_back(std::move(element));
+  }
+
+  static void check_solid(const TextScanner& at, const DeckElement& element) {
+    const auto wanted = static_cast<std::size_t>(element.solid->nodes);
+    if (element.nodes.size() != wanted)
+      at.fail(fmt::format("{} {} has {} nodes. Expected {}.", element.type,
+                          element.number, element.nodes.size(), wanted));
+    const std::set<std::size_t> different(element.nodes.begin(),
+                                          element.nodes.end());
+    if (different.size() != wanted)
+      at.fail(fmt::format(
+          "{} {} has a node twice. Expected different nodes; a collapsed "
+          "element is a wedge, a pyramid or a tetrahedron.",
+          element.type, element.number));
+  }
+
+  void add_surface(const TextScanner& at, std::string_view line) {
+    const std::vector<std::string_view> fields = split_commas(line);
+    long face = 0;
+    const bool is_face = fields.size() > 1 && fields[1].size() == 2 &&
+                         (fields[1][0] == 'S' || fields[1][0] == 's') &&
+                         parse_whole(fields[1].substr(1), face);
+    if (!is_face) {  // of shells, or the free faces of a set
+      count(at, "*SURFACE without faces S1, S2, ...", deck_.unused);
+      return;
+    }
+    deck_.surfaces[keyword_.get("NAME")].push_back(
+        {find_place(at), to_upper(std::string(fields[0])),
+         static_cast<int>(face)});
+  }
+
+  std::size_t find_file(const TextScanner& at) {
+    if (deck_.files.empty() || deck_.files.back() != at.file())
+      deck_.files.push_back(at.file());
+    return deck_.files.size() - 1;
+  }
+
+  DeckContent deck_;
+  Keyword keyword_;
+  std::vector<long> element_;  // numbers of one that goes on
+  int instances_ = 0;
+  std::string material_;
+};
+
+}  // namespace
+
+const DeckElement* DeckContent::find(long number) const {
+  const auto found = index.find(static_cast<std::size_t>(number));
+  return found == index.end() ? nullptr : &elements[found->second];
+}
+
+std::vector<long> DeckContent::find_elements(const std::string& name) const {
+  long number = 0;
+  if (parse_whole(name, number)) return {number};
+  return element_sets.get(name);
+}
+
+std::string DeckContent::spell(const std::string& name) const {
+  const auto found = spelling.find(name);
+  return found == spelling.end() ? name : found->second;
+}
+
+std::string DeckContent::place_of(const DeckElement& element) const {
+  return fmt::format("{}:{}", files[element.file].string(), element.line);
+}
+
+DeckContent read_deck_content(const std::filesystem::path& file) {
+  return ContentReader().read(file);
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "limber/common/types.hpp"
+#include "limber/fem/abaqus/deck_sets.hpp"
+#include "limber/fem/abaqus/solid_type.hpp"
+#include "limber/fem/mesh/solid_deck.hpp"
+
+namespace limber::fem {
+
+/// Keywords or elements of one kind.
+struct DeckCount {
+  int count = 0;
+  std::string first = {};  ///< "file:line"
+};
+using DeckCounts = std::map<std::string, DeckCount>;
+
+struct DeckElement {
+  std::size_t number = 0;
+  std::string_view type = {};        ///< into DeckContent::types
+  const SolidType* solid = nullptr;  ///< null: another kind
+  Tags nodes;                        ///< as the file has them
+  std::size_t file = 0;              ///< into DeckContent::files
+  std::size_t line = 0;
+};
+
+struct DeckMaterial {
+  std::string elastic = {};  ///< first line of *ELASTIC
+  bool is_isotropic = true;
+};
+
+struct DeckSection {
+  std::string elset = {};
+  std::string material = {};
+};
+
+struct DeckSurfacePart {
+  std::string place = {};  ///< "file:line"
+  std::string of = {};     ///< a set, or an element's number
+  int face = 0;            ///< from 1
+};
+
+/// What an input file says of a mesh, by its numbers and names.
+struct DeckContent {
+  std::vector<std::filesystem::path> files;
+  std::map<std::size_t, Vector3> nodes;
+  std::vector<DeckElement> elements;
+  std::unordered_map<std::size_t, std::size_t> index;  ///< into elements
+  std::set<std::string> types;
+  DeckSets node_sets;
+  DeckSets element_sets;
+  std::vector<Keyword> nodes_of;  ///< *NSET with ELSET
+  std::map<std::string, std::vector<DeckSurfacePart>> surfaces;
+  std::vector<DeckSection> sections;
+  std::map<std::string, DeckMaterial> materials;
+  /// Names of sets and surfaces, which are in upper case, as first written.
+  std::map<std::string, std::string> spelling;
+  DeckCounts constraints;  ///< and contact
+  DeckCounts unused;       ///< supports, loads, axes of materials
+
+  /// Null without it.
+  [[nodiscard]] const DeckElement* find(long number) const;
+  /// Of a set, or one by its number.
+  [[nodiscard]] std::vector<long> find_elements(const std::string& name) const;
+  [[nodiscard]] std::string spell(const std::string& name) const;
+  /// "file:line"
+  [[nodiscard]] std::string place_of(const DeckElement& element) const;
+};
+
+/// @throws InputError with file and line
+[[nodiscard]] DeckContent read_deck_content(const std::filesystem::path& file);
+
+}  // namespace limber::fem

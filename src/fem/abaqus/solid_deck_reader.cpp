@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/abaqus/solid_deck_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/abaqus/deck_content.hpp"
+
+namespace limber::fem {
+namespace {
+
+template <typename List>
+bool is_listed(const List& list, std::string_view name) {
+  return std::ranges::find(list, name) != list.end();
+}
+
+/// A face of shells or of plane elements, which may mark a surface.
+std::optional<std::pair<int, int>> find_mark(std::string_view type) {
+  constexpr std::array<std::string_view, 6> kStarts = {"CPS", "CPE",  "CAX",
+                                                       "M3D", "STRI", "S"};
+  const auto is_start = [&](std::string_view start) {
+    return type.starts_with(start) && type.size() > start.size() &&
+           type[start.size()] >= '3' && type[start.size()] <= '8';
+  };
+  const auto start = std::ranges::find_if(kStarts, is_start);
+  if (start == kStarts.end()) return std::nullopt;
+  switch (type[start->size()]) {
+    case '3':
+      return std::pair{2, 3};
+    case '4':
+      return std::pair{3, 4};
+    case '6':
+      return std::pair{9, 6};
+    case '8':
+      return std::pair{16, 8};
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_edge(std::string_view type) {
+  return type.starts_with("T3D") || type.starts_with("B3") ||
+         type.starts_with("T2D");
+}
+
+class SolidDeckReader {
+ public:
+  explicit SolidDeckReader(const std::filesystem::path& file)
+      : file_(file), content_(read_deck_content(file)) {}
+
+  SolidDeck read() {
+    refuse_others();
+    set_nodes();
+    set_solids();
+    set_groups();
+    report();
+    return std::move(deck_);
+  }
+
+ private:
+  [[nodiscard]] std::set<long> find_described() const {
+    std::set<long> described;
+    for (const DeckSection& section : content_.sections)
+      for (const long number : content_.find_elements(section.elset))
+        described.insert(number);
+    return described;
+  }
+
+  void refuse_others() {
+    const std::set<long> described = find_described();
+    for (const DeckElement& element : content_.elements) {
+      if (element.solid != nullptr) continue;
+      const auto number = static_cast<long>(element.number);
+      const bool is_described = described.contains(number);
+      if (find_mark(element.type) && !is_described) continue;
+      DeckCounts& counts =
+          is_edge(element.type) && !is_described ? edges_ : refused_;
+      DeckCount& entry = counts[fmt::format("elements {}", element.type)];
+      if (entry.count++ == 0) entry.first = content_.place_of(element);
+    }
+    refused_.insert(content_.constraints.begin(), content_.constraints.end());
+    std::vector<std::string> problems;
+    for (const auto& [what, entry] : refused_)
+      problems.push_back(fmt::format(
+          "{}: {}{} would be lost. Expected solid elements only (C3D4, C3D10, "
+          "C3D8, C3D20, C3D6, C3D15, C3D5): leave it out and model it in the "
+          "scene by links and joints, or bring the body by its matrices.",
+          entry.first, what,
+          entry.count == 1
+              ? std::string()
+              : fmt::format(" ({}, the first here)", entry.count)));
+    if (!problems.empty()) throw InputError(problems);
+  }
+
+  void set_nodes() {
+    deck_.x.resize(3, static_cast<Eigen::Index>(content_.nodes.size()));
+    for (const auto& [number, x] : content_.nodes) {
+      deck_.x.col(static_cast<Eigen::Index>(deck_.nodes.size())) = x;
+      deck_.nodes.push_back(number);
+    }
+  }
+
+  /// Elements of the same sets are a region.
+  void set_solids() {
+    std::unordered_map<std::size_t, std::vector<std::string>> sets;
+    for (const auto& [name, numbers] : content_.element_sets.all())
+      for (const long number : std::set<long>(numbers.begin(), numbers.end()))
+        sets[static_cast<std::size_t>(number)].push_back(content_.spell(name));
+    std::map<std::vector<std::string>, int> regions;
+    for (const DeckElement& element : content_.elements) {
+      if (element.solid == nullptr) continue;
+      check_nodes(element);
+      const std::vector<std::string>& names = sets[element.number];
+      const auto [region, is_new] =
+          regions.try_emplace(names, static_cast<int>(regions.size()));
+      if (is_new) deck_.region_groups.push_back(names);
+      append(element.solid->gmsh_type, element.solid->order, element,
+             region->second, deck_.solids);
+      used_.insert(element.nodes.begin(), element.nodes.end());
+    }
+  }
+
+  void check_nodes(const DeckElement& element) const {
+    for (const std::size_t node : element.nodes)
+      if (!content_.nodes.contains(node))
+        throw InputError(fmt::format(
+            "{}: element {} has node {}, which is missing. Expected it under "
+            "*NODE.",
+            content_.place_of(element), element.number, node));
+  }
+
+  static void append(int type, const std::vector<int>& places,
+                     const DeckElement& element, int region, RawBlocks& out) {
+    RawBlock& block = out[type];
+    block.type = type;
+    block.nodes_each = static_cast<int>(places.size());
+    block.elements.push_back(element.number);
+    block.regions.push_back(region);
+    for (const int place : places)
+      block.nodes.push_back(element.nodes[static_cast<std::size_t>(place)]);
+  }
+
+  void set_groups() {
+    for (const auto& [name, parts] : content_.surfaces) {
+      DeckGroup group{content_.spell(name), 2, {}};
+      for (const DeckSurfacePart& part : parts) add_faces(part, group);
+      add_group(std::move(group));
+    }
+    for (const auto& [name, numbers] : content_.element_sets.all()) {
+      DeckGroup group{content_.spell(name), 2, {}};
+      for (const long number : numbers) add_mark(number, group);
+      add_group(std::move(group));
+    }
+    for (const Keyword& keyword : content_.nodes_of)
+      for (const long number : content_.element_sets.get(keyword.get("ELSET")))
+        if (const DeckElement* element = content_.find(number))
+          for (const std::size_t node : element->nodes)
+            content_.node_sets.add(keyword.get("NSET"),
+                                   static_cast<long>(node));
+    for (const auto& [name, numbers] : content_.node_sets.all()) {
+      constexpr int kPoint = 15;
+      DeckGroup group{content_.spell(name), 0, {}};
+      for (const long number : std::set<long>(numbers.begin(), numbers.end())) {
+        const auto node = static_cast<std::size_t>(number);
+        append(kPoint, {0}, {.number = node, .nodes = {node}}, 0,
+               group.elements);
+      }
+      add_group(std::move(group));
+    }
+  }
+
+  /// Under its name, or one that no group has.
+  void add_group(DeckGroup group) {
+    if (group.elements.empty()) return;
+    const auto is_taken = [&] {
+      const auto has_name = [&](const DeckGroup& other) {
+        return other.name == group.name;
+      };
+      const auto is_of = [&](const std::vector<std::string>& names) {
+        return is_listed(names, group.name);
+      };
+      return std::ranges::any_of(deck_.groups, has_name) ||
+             std::ranges::any_of(deck_.region_groups, is_of);
+    };
+    const std::string name = group.name;
+    if (is_taken()) group.name += group.dimension == 0 ? ".nodes" : ".faces";
+    if (group.name != name)
+      deck_.notices.push_back(fmt::format(
+          "{}: {} names several sets; that of {} is called {} here.",
+          file_.string(), name, group.dimension == 0 ? "nodes" : "faces",
+          group.name));
+    deck_.groups.push_back(std::move(group));
+  }
+
+  void add_faces(const DeckSurfacePart& part, DeckGroup& group) const {
+    const std::vector<long> numbers = content_.find_elements(part.of);
+    if (numbers.empty())
+      throw InputError(
+          fmt::format("{}: the surface {} has the set {}, which is missing or "
+                      "empty. Expected a set of elements.",
+                      part.place, group.name, echo(part.of)));
+    for (const long number : numbers) {
+      const DeckElement* element = content_.find(number);
+      if (element == nullptr || element->solid == nullptr) continue;
+      const auto& faces = element->solid->faces;
+      const auto face = static_cast<std::size_t>(part.face) - 1;
+      if (face >= faces.size())
+        throw InputError(fmt::format(
+            "{}: {} {} has no face S{}. Expected S1 to S{}.", part.place,
+            element->type, number, part.face, faces.size()));
+      append(faces[face].type, faces[face].places, *element, 0, group.elements);
+    }
+  }
+
+  void add_mark(long number, DeckGroup& group) const {
+    const DeckElement* element = content_.find(number);
+    if (element == nullptr || element->solid != nullptr) return;
+    const auto mark = find_mark(element->type);
+    const auto wanted =
+        mark ? static_cast<std::size_t>(mark->second) : std::size_t{0};
+    if (!mark || element->nodes.size() != wanted) return;
+    std::vector<int> places(wanted);
+    for (std::size_t i = 0; i < wanted; ++i) places[i] = static_cast<int>(i);
+    append(mark->first, places, *element, 0, group.elements);
+  }
+
+  // ---- notices
+  void report() {
+    report_unused_nodes();
+    report_types();
+    report_materials();
+    const auto tell = [this](const DeckCounts& counts, const char* why) {
+      if (counts.empty()) return;
+      std::vector<std::string> texts;
+      for (const auto& [what, entry] : counts)
+        texts.push_back(
+            fmt::format("{} {} ({})", entry.count, what, entry.first));
+      deck_.notices.push_back(fmt::format("{}: {}: {}.", file_.string(), why,
+                                          fmt::join(texts, ", ")));
+    };
+    tell(edges_, "left out as edges, as no section describes them");
+    tell(content_.unused,
+         "not used, as supports, loads and material axes are those "
+         "of the scene");
+  }
+
+  void report_unused_nodes() {
+    constexpr std::size_t kListed = 5;
+    Tags unused;
+    std::ranges::copy_if(
+        deck_.nodes, std::back_inserter(unused),
+        [&](std::size_t number) { return !used_.contains(number); });
+    if (unused.empty()) return;
+    const std::size_t count = unused.size();
+    unused.resize(std::min(count, kListed));
+    deck_.notices.push_back(fmt::format(
+        "{}: {} of {} nodes belong to no solid element and are left out: "
+        "{}{}.",
+        file_.string(), count, deck_.nodes.size(), fmt::join(unused, ", "),
+        count > kListed ? " ..." : ""));
+  }
+
+  void report_types() {
+    std::set<std::string> others;
+    for (const DeckElement& element : content_.elements)
+      if (element.solid != nullptr && element.type != element.solid->name)
+        others.insert(
+            fmt::format("{} as {}", element.type, element.solid->name));
+    if (!others.empty())
+      deck_.notices.push_back(
+          fmt::format("{}: read with the integration of this program: {}.",
+                      file_.string(), fmt::join(others, ", ")));
+  }
+
+  void report_materials() {
+    std::map<std::string, std::set<std::string>> used;
+    for (const DeckSection& section : content_.sections) {
+      const auto is_solid = [&](long number) {
+        const DeckElement* element = content_.find(number);
+        return element != nullptr && element->solid != nullptr;
+      };
+      if (std::ranges::any_of(content_.find_elements(section.elset), is_solid))
+        used[section.material].insert(section.elset);
+    }
+    const bool are_isotropic =
+        std::ranges::all_of(used, [&](const auto& entry) {
+          const auto found = content_.materials.find(entry.first);
+          return found == content_.materials.end() ||
+                 found->second.is_isotropic;
+        });
+    if (used.size() < 2 && are_isotropic) return;
+    std::vector<std::string> texts;
+    for (const auto& [name, sets] : used) {
+      const auto found = content_.materials.find(name);
+      const bool is_known = found != content_.materials.end();
+      texts.push_back(fmt::format(
+          "{} ({}*ELASTIC {}) of {}", name,
+          is_known && !found->second.is_isotropic ? "anisotropic, " : "",
+          is_known ? found->second.elastic : "-", fmt::join(sets, ", ")));
+    }
+    deck_.notices.push_back(fmt::format(
+        "{}: its materials are not read: {}. Give each of the groups its "
+        "(isotropic) material.",
+        file_.string(), fmt::join(texts, "; ")));
+  }
+
+  std::filesystem::path file_;
+  DeckContent content_;
+  SolidDeck deck_;
+  std::set<std::size_t> used_;  // nodes
+  DeckCounts refused_;
+  DeckCounts edges_;
+};
+
+}  // namespace
+
+SolidDeck read_solid_deck(const std::filesystem::path& file) {
+  return SolidDeckReader(file).read();
+}
+
+}  // namespace limber::fem

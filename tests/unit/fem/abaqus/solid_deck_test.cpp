@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Input files of Abaqus and CalculiX as meshes.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limber/common/errors.hpp"
+#include "limber/fem/abaqus/solid_deck_reader.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "unit/fem/meshes.hpp"
+
+namespace limber::fem::solid_deck_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+using testing::write_file;
+
+/// An element, its corners, the corners between which each further node lies,
+/// and a point and a normal of the plane of each face S1, S2, ... (CalculiX
+/// 2.20 User's Manual, ch. 6.2 and *SURFACE; numbers from 1).
+struct Shape {
+  std::string linear;
+  std::string quadratic;
+  std::vector<Vector3> corners;
+  std::vector<std::pair<int, int>> edges;
+  double volume;
+  std::vector<std::pair<Vector3, Vector3>> faces;
+};
+
+const Vector3 kX = Vector3::UnitX();
+const Vector3 kY = Vector3::UnitY();
+const Vector3 kZ = Vector3::UnitZ();
+const Vector3 kO = Vector3::Zero();
+
+const Shape kTetra{"C3D4",
+                   "C3D10",
+                   {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}},
+                   {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}},
+                   1.0,
+                   {{kO, kZ}, {kO, kY}, {{3, 0, 0}, {2, 3, 6}}, {kO, kX}}};
+const Shape kHexa{"C3D8",
+                  "C3D20",
+                  {{0, 0, 0},
+                   {3, 0, 0},
+                   {3, 2, 0},
+                   {0, 2, 0},
+                   {0, 0, 1},
+                   {3, 0, 1},
+                   {3, 2, 1},
+                   {0, 2, 1}},
+                  {{1, 2},
+                   {2, 3},
+                   {3, 4},
+                   {4, 1},
+                   {5, 6},
+                   {6, 7},
+                   {7, 8},
+                   {8, 5},
+                   {1, 5},
+                   {2, 6},
+                   {3, 7},
+                   {4, 8}},
+                  6.0,
+                  {{kO, kZ},
+                   {{0, 0, 1}, kZ},
+                   {kO, kY},
+                   {{3, 0, 0}, kX},
+                   {{0, 2, 0}, kY},
+                   {kO, kX}}};
+const Shape kWedge{
+    "C3D6",
+    "C3D15",
+    {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {3, 0, 1}, {0, 2, 1}},
+    {{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}, {1, 4}, {2, 5}, {3, 6}},
+    3.0,
+    {{kO, kZ}, {{0, 0, 1}, kZ}, {kO, kY}, {{3, 0, 0}, {2, 3, 0}}, {kO, kX}}};
+
+/// @param set of all elements
+std::string element_deck(const Shape& shape, bool is_quadratic) {
+  std::vector<Vector3> nodes = shape.corners;
+  if (is_quadratic)
+    for (const auto& [a, b] : shape.edges)
+      nodes.emplace_back(0.5 *
+                         (shape.corners[static_cast<std::size_t>(a - 1)] +
+                          shape.corners[static_cast<std::size_t>(b - 1)]));
+  std::string text = "** one element\n*Node, nset=Nall\n";
+  std::string element = "7";
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    text += fmt::format("{}, {}, {}, {}\n", i + 1, nodes[i][0], nodes[i][1],
+                        nodes[i][2]);
+    element += fmt::format(",{}{}", i == 12 ? "\n " : " ", i + 1);
+  }
+  text += fmt::format("*Element, type={}, elset=Eall\n{}\n",
+                      is_quadratic ? shape.quadratic : shape.linear, element);
+  for (std::size_t i = 1; i <= shape.faces.size(); ++i)
+    text +=
+        fmt::format("*Surface, name=Side{0}, type=element\nEall, S{0}\n", i);
+  return text;
+}
+
+class DeckElementOf : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(DeckElementOf, HasItsNodesWhereTheReferenceElementHasThem) {
+  for (const bool is_quadratic : {false, true}) {
+    const Mesh mesh = read_mesh(
+        write_file("one.inp", element_deck(GetParam(), is_quadratic)));
+    const ElementBlock& block = mesh.blocks.at(0);
+    EXPECT_EQ(block.element->order, is_quadratic ? 2 : 1);
+    EXPECT_TRUE(
+        is_parallel_sided(*block.element, element_positions(mesh, block, 0)));
+    const std::vector<ElasticMaterial> each(1, {1e9, 0.3, 1.0});
+    EXPECT_NEAR(calc_mass_properties(assemble(mesh, each).M_s, mesh.x).mass,
+                GetParam().volume, 1e-12);
+  }
+}
+
+TEST_P(DeckElementOf, HasItsFacesWhereTheManualNumbersThem) {
+  for (const bool is_quadratic : {false, true}) {
+    const Mesh mesh = read_mesh(
+        write_file("one.inp", element_deck(GetParam(), is_quadratic)));
+    for (std::size_t i = 0; i < GetParam().faces.size(); ++i) {
+      const auto& [point, normal] = GetParam().faces[i];
+      const PhysicalGroup& side =
+          mesh.groups.at(find_group(mesh, fmt::format("Side{}", i + 1)));
+      EXPECT_EQ(side.dimension, 2);
+      ASSERT_EQ(side.blocks.size(), 1U);
+      EXPECT_EQ(side.blocks[0].size(), 1U);
+      std::vector<int> on_plane;
+      for (int n = 0; n < mesh.x.cols(); ++n)
+        if (std::abs(normal.dot(mesh.x.col(n) - point)) < 1e-12)
+          on_plane.push_back(n);
+      EXPECT_EQ(side.nodes, on_plane) << i + 1;
+      // Around the face: each middle is between the corners beside it.
+      const int* nodes = side.blocks[0].element_nodes(0);
+      const int corners = is_quadratic ? side.blocks[0].element->node_count / 2
+                                       : side.blocks[0].element->node_count;
+      for (int k = 0; is_quadratic && k < corners; ++k) {
+        const Vector3 middle =
+            0.5 * (mesh.x.col(nodes[k]) + mesh.x.col(nodes[(k + 1) % corners]));
+        EXPECT_LT((mesh.x.col(nodes[corners + k]) - middle).norm(), 1e-12);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, DeckElementOf,
+                         ::testing::Values(kTetra, kHexa, kWedge),
+                         [](const auto& shape) { return shape.param.linear; });
+
+/// Gmsh writes input files by its own tables of the order of nodes.
+TEST(SolidDeck, IsTheMeshThatGmshWrote) {
+  using testing::BoxKind;
+  for (const BoxKind kind :
+       {BoxKind::tetrahedra, BoxKind::hexahedra, BoxKind::prisms}) {
+    const auto geo = write_file("box.geo", testing::box_geo(kind));
+    for (const int order : {1, 2}) {
+      const testing::MshForm form{.order = order, .serendipity = true};
+      const Mesh mesh = read_mesh(testing::convert(geo, "box.inp", form));
+      const Mesh known = read_mesh(testing::convert(geo, "box.msh", form));
+      ASSERT_EQ(mesh.tags, known.tags);
+      EXPECT_LT((mesh.x - known.x).norm(), 1e-12);
+      EXPECT_EQ(mesh.blocks.at(0).nodes, known.blocks.at(0).nodes);
+    }
+  }
+}
+
+constexpr const char* kTwo =
+    "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 0, 0, -1\n"
+    "*ELEMENT, TYPE=C3D4\n10, 1, 2, 3, 4\n20, 1, 3, 2, 5\n";
+
+TEST(SolidDeck, HasItsSetsAsGroups) {
+  const Mesh mesh = read_mesh(write_file(
+      "two.inp", std::string(kTwo) +
+                     "*ELSET, ELSET=Upper\n10\n*Elset, elset=All, generate\n"
+                     "10, 20, 10\n*ELSET, ELSET=Again\nUPPER\n"
+                     "*NSET, NSET=Base, GENERATE\n1, 3\n"
+                     "*NSET, NSET=Lower, ELSET=all\n*NSET,NSET=tip\nBASE, 5,\n"
+                     "*SURFACE, NAME=Faces\nUpper, S2\n20, S2\n"));
+  EXPECT_THAT(mesh.volume_groups,
+              ElementsAre(UnorderedElementsAre("Upper", "All", "Again"),
+                          ElementsAre("All")));
+  const auto nodes_of = [&mesh](const char* name) {
+    return mesh.groups.at(find_group(mesh, name)).nodes;
+  };
+  EXPECT_THAT(nodes_of("Upper"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(nodes_of("Again"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(nodes_of("Base"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(nodes_of("Lower"), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(nodes_of("tip"), ElementsAre(0, 1, 2, 4));
+  EXPECT_THAT(nodes_of("Faces"), ElementsAre(0, 1, 2, 3, 4));
+}
+
+TEST(SolidDeck, IsReadWithItsIncludesAndOneInstance) {
+  write_file("nodes.txt", "1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n");
+  write_file("more.inp", "*NODE\n4, 0., 0., 1.\n** done\n");
+  const SolidDeck deck = read_solid_deck(write_file(
+      "parts.inp",
+      "*Heading\n bar\n*Part, name=P\n*Node, input=nodes.txt\n"
+      "*Include, input=more.inp\n*Element, type=C3D4\n1, 1, 2,\n 3, 4\n"
+      "*End Part\n*Assembly, name=A\n*Instance, name=I, part=P\n"
+      "*End Instance\n*End Assembly\n*Step\n*Static\n1., 1.\n*End Step\n"));
+  EXPECT_THAT(deck.nodes, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(deck.solids.at(4).nodes, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(deck.notices, IsEmpty());
+}
+
+std::string find_error(const std::string& more, const std::string& base) {
+  try {
+    static_cast<void>(read_solid_deck(write_file("bad.inp", base + more)));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SolidDeck, RefusesWhatABodyOfSolidsWouldLose) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"*ELEMENT, TYPE=MASS, ELSET=M\n5, 2\n", "elements MASS"},
+      {"*ELEMENT, TYPE=SPRINGA\n5, 2, 3\n", "elements SPRINGA"},
+      {"*ELEMENT, TYPE=S3, ELSET=S\n5, 1, 2, 3\n*SHELL SECTION, ELSET=S\n1\n",
+       "elements S3"},
+      {"*ELEMENT, TYPE=B31, ELSET=B\n5, 1, 2\n*BEAM SECTION, ELSET=B\n1\n",
+       "elements B31"},
+      {"*ELEMENT, TYPE=C3D27\n5, 1, 2, 3, 4\n", "elements C3D27"},
+      {"*ELEMENT, TYPE=C3D8P\n5, 1, 2, 3, 4\n", "elements C3D8P"},
+      {"*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n", "*EQUATION"},
+      {"*RIGID BODY, NSET=R, REF NODE=1\n", "*RIGID BODY"},
+      {"*TIE, NAME=T\nA, B\n", "*TIE"},
+      {"*CONTACT PAIR, INTERACTION=I\nA, B\n", "*CONTACT PAIR"},
+  };
+  for (const auto& [more, what] : cases) {
+    const std::string error = find_error(more, kTwo);
+    EXPECT_THAT(error, HasSubstr(what));
+    EXPECT_THAT(error, HasSubstr("would be lost"));
+    EXPECT_THAT(error, HasSubstr("bad.inp:"));
+  }
+}
+
+TEST(SolidDeck, RefusesWhatIsWrongWithItsLine) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"*NODE\n1, 0, 0, 0\n", "bad.inp:11: node 1 is there twice"},
+      {"*NODE\n6, 0, x, 0\n", "bad.inp:11: 'x' is no finite number"},
+      {"*NODE\nsix, 0, 0, 0\n", "bad.inp:11: 'six' is no node"},
+      {"*ELEMENT, TYPE=C3D4\n10, 1, 2, 3, 4\n", "element 10 is there twice"},
+      {"*ELEMENT, TYPE=C3D4\n30, 1, 2, 3\n", "C3D4 30 has 3 nodes. Expected 4"},
+      {"*ELEMENT, TYPE=C3D4\n30, 1, 2, 3, 3\n", "has a node twice"},
+      {"*ELEMENT, TYPE=C3D4\n30, 1, 2, 3, 9\n", "node 9, which is missing"},
+      {"*ELEMENT, TYPE=C3D4\n30, 1, 2, 3,\n", "the last element is not"},
+      {"*ELEMENT, TYPE=C3D4\n30, 1, 2, 3,\n*STEP\n", "is not complete"},
+      {"*NGEN\n1, 5, 1\n", "*NGEN makes or moves nodes"},
+      {"*NODE, SYSTEM=C\n9, 1, 0, 0\n", "*NODE makes or moves nodes"},
+      {"*ELSET, ELSET=A\nB\n", "names the set B"},
+      {"*NSET, NSET=A, GENERATE\n5, 1\n", "GENERATE gives no set"},
+      {"*SURFACE, NAME=A\n10, S5\n", "has no face S5. Expected S1 to S4"},
+      {"*SURFACE, NAME=A\nNone, S1\n", "missing or empty"},
+      {"*INSTANCE, NAME=I\n*INSTANCE, NAME=J\n", "a second *INSTANCE"},
+      {"*INSTANCE, NAME=I\n0, 0, 1\n", "*INSTANCE moves its part"},
+      {"*INCLUDE, INPUT=none.inp\n", "none.inp"},
+      {"*INCLUDE, INPUT=bad.inp\n", "is there twice"},
+  };
+  for (const auto& [more, what] : cases)
+    EXPECT_THAT(find_error(more, kTwo), HasSubstr(what)) << more;
+  EXPECT_THAT(
+      testing::find_read_error(write_file("none.inp", "*NODE\n1, 0, 0, 0\n")),
+      HasSubstr("no solid elements"));
+  EXPECT_THAT(
+      testing::find_read_error(write_file("geo.inp", "Point(1) = {0, 0, 0};")),
+      HasSubstr("does not begin as one"));
+}
+
+TEST(SolidDeck, ReportsWhatItLeavesOut) {
+  const SolidDeck deck = read_solid_deck(write_file(
+      "more.inp",
+      std::string(kTwo) +
+          "*NODE\n9, 5, 5, 5\n*ELEMENT, TYPE=T3D2, ELSET=L\n40, 1, 2\n"
+          "*ELEMENT, TYPE=CPS3, ELSET=Base\n50, 1, 2, 3\n"
+          "*ELSET, ELSET=A\n10\n*ELSET, ELSET=B\n20\n"
+          "*MATERIAL, NAME=Steel\n*ELASTIC\n210e9, 0.3\n"
+          "*MATERIAL, NAME=CFRP\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n1,2,3\n"
+          "*SOLID SECTION, ELSET=A, MATERIAL=Steel\n"
+          "*SOLID SECTION, ELSET=B, MATERIAL=CFRP, ORIENTATION=O\n"
+          "*BOUNDARY\n1, 1, 3\n*STEP\n*CLOAD\n2, 1, 1.\n*END STEP\n"));
+  const std::string all = fmt::format("{}", fmt::join(deck.notices, "\n"));
+  EXPECT_THAT(all, HasSubstr("1 of 6 nodes belong to no solid"));
+  EXPECT_THAT(all, HasSubstr("1 elements T3D2"));
+  EXPECT_THAT(all, HasSubstr("STEEL (*ELASTIC 210e9, 0.3) of A"));
+  EXPECT_THAT(all, HasSubstr("CFRP (anisotropic, *ELASTIC 1,2,3) of B"));
+  EXPECT_THAT(all, HasSubstr("1 *BOUNDARY"));
+  EXPECT_THAT(all, HasSubstr("1 *CLOAD"));
+  EXPECT_THAT(all, HasSubstr("*ORIENTATION"));
+  ASSERT_EQ(deck.groups.size(), 1U);  // the plane element, which nothing has
+  EXPECT_EQ(deck.groups[0].name, "Base");
+}
+
+TEST(SolidDeck, ReportsAnotherIntegrationAndNamesOfSeveralSets) {
+  const SolidDeck deck =
+      read_solid_deck(write_file("names.inp",
+                                 "*NODE, NSET=Bar\n1,0,0,0\n2,1,0,0\n3,0,1,0\n"
+                                 "4,0,0,1\n*ELEMENT, TYPE=C3D4H, ELSET=Bar\n"
+                                 "1,1,2,3,4\n"));
+  const std::string all = fmt::format("{}", fmt::join(deck.notices, "\n"));
+  EXPECT_THAT(all, HasSubstr("C3D4H as C3D4"));
+  EXPECT_THAT(all, HasSubstr("that of nodes is called Bar.nodes here"));
+  EXPECT_EQ(deck.groups.at(0).name, "Bar.nodes");
+}
+
+}  // namespace
+}  // namespace limber::fem::solid_deck_test
