@@ -9,7 +9,7 @@ from .errors import LimberWarning
 
 
 def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
-           matrices=None, mass=None, interfaces=(), clamps=(), modes=10,
+           matrices=None, mass=None, recovery=(), interfaces=(), clamps=(), modes=10,
            rows=("boundary",), size=0.0, order=0, unit=None, second_order=False,
            stress=False):
     """Reduces a mesh or geometry to a body that no longer needs the mesh, or the
@@ -17,7 +17,8 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
 
     ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh;
     ``matrices``: a folder, or a list of files, in place of mesh and material, with
-    ``mass`` [kg] of the whole model, which its program prints;
+    ``mass`` [kg] of the whole model, which its program prints, and ``recovery``: the
+    files of a superelement's recovery rows, unless they are in the folder;
     ``interfaces``: groups of the mesh, or node sets and "node:TAG" of matrices, that
     become interfaces; ``clamps``: that are fixed; ``modes``: number of eigenmodes, or
     "auto"; ``rows``: nodes to keep; ``size`` [mesh units] and ``order`` of elements
@@ -44,6 +45,8 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
                      mass=0.0 if mass is None else mass,
                      youngs_modulus=youngs_modulus or 0.0,
                      poisson_ratio=poisson_ratio or 0.0, density=density or 0.0)
+    single = isinstance(recovery, (str, bytes, os.PathLike))
+    given["recovery"] = [os.fspath(path) for path in ([recovery] if single else recovery)]
     wish = dict(given, interfaces=list(interfaces), clamps=list(clamps), modes=modes,
                 rows=list(rows), size=size, order=order, unit=unit,
                 second_order=second_order, stress=stress)

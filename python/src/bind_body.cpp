@@ -45,6 +45,7 @@ flexbody::Recipe make_recipe(const py::dict& wish) {
   app::MeshOptions options;
   options.file = wish["mesh"].cast<std::string>();
   options.matrices = wish["matrices"].cast<std::vector<std::string>>();
+  options.recovery = wish["recovery"].cast<std::vector<std::string>>();
   options.mass = wish["mass"].cast<double>();
   options.material = {wish["youngs_modulus"].cast<double>(),
                       wish["poisson_ratio"].cast<double>(),

@@ -196,6 +196,11 @@ std::string find_content(const MatrixPart& part) {
     digest.add(set.name);
     for (const int node : set.nodes) digest.add(node);
   }
+  for (const fem::SparseMatrix& moment : system.moments)
+    for (Eigen::Index j = 0; j < moment.outerSize(); ++j)
+      for (fem::SparseMatrix::InnerIterator it(moment, j); it; ++it)
+        digest.add(it.value());
+  digest.add(system.has_recovery);
   digest.add(system.triangles.size());
   for (const auto& nodes : system.triangles)
     for (const int node : nodes) digest.add(node);
@@ -241,7 +246,10 @@ Reducer make_reducer(const Progress& progress) {
   const auto make_mesh = [progress](const MeshSource& source) {
     if (source.is_matrices()) {
       // Before they are read, so that a change meanwhile is noticed.
-      std::vector<FileStamp> files = stamp_files(source.matrices.paths);
+      std::vector<std::filesystem::path> paths = source.matrices.paths;
+      paths.insert(paths.end(), source.matrices.recovery.begin(),
+                   source.matrices.recovery.end());
+      std::vector<FileStamp> files = stamp_files(paths);
       return at_hand(read_matrix_part(source, progress), std::move(files),
                      progress);
     }

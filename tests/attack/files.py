@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutated scenarios, robots, geometries and meshes; geometries with orders."""
 
+import shutil
+from pathlib import Path
 from random import Random
 
 import scene
@@ -69,6 +71,30 @@ def attack_mesh(seed, limber):
     ended = limber.run(*words)
     ended.problems += _repeats(limber, words, ended, random)
     return ended
+
+
+MATRICES = Path(__file__).resolve().parents[1] / "data" / "matrices"
+# Of the whole model [kg].
+MASSES = {"arch": 7.4186889, "beam": 4.68, "beam_lumped": 4.68, "beam_mm": 4.68e-3,
+          "superelement": 7.4, "calculix_beam": 11.9317, "calculix_fold": 780.0,
+          "calculix_shell": 63.6358, "calculix_spider": 193.6}
+
+
+def attack_matrices(seed, limber):
+    """One file of a model by its matrices, in each form by turns."""
+    random = Random(f"matrices {seed}")
+    samples = sorted(path.name for path in MATRICES.iterdir() if path.is_dir())
+    sample = samples[seed % len(samples)]
+    folder = limber.place / "matrices"
+    shutil.copytree(MATRICES / sample, folder)
+    choices = sorted(path for path in folder.rglob("*") if path.is_file())
+    file = random.choice(choices)
+    text = mutate_text(file.read_text(), random)
+    file.write_bytes(text.encode(errors="replace"))
+    words = ["modes", "--matrices", "matrices", "--mass", str(MASSES.get(sample, 1.71335)), "--count", "2"]
+    if sample == "superelement":
+        words += ["--recovery", "matrices/recovery/otm.mtx", "matrices/recovery/points.csv"]
+    return limber.run(*words)
 
 
 # Each tries to leave a file or a process behind, or never to end.

@@ -31,6 +31,7 @@ FAMILIES = {
     "geometries": (files.attack_geometry, 800, True),
     "meshes": (files.attack_mesh, 800, True),
     "shapes": (files.attack_shape, 400, True),
+    "matrices": (files.attack_matrices, 600, True),
     "settings": (settings.attack_setting, 1000, True),
     "study files": (studies.attack_study_file, 300, True),
     "tables": (studies.attack_table, 200, True),
@@ -69,7 +70,7 @@ def _run_case(job):
     place.mkdir(parents=True)
     limber = Limber(program, place, worker / "cache")
     laid = {*scene.FILES, "bar.msh", "fifo", "beam.msh", "beam.urdf", "beam.toml",
-            "body.h5", "bar.step", "values.txt", *faults.ODD_PLACES}
+            "body.h5", "bar.step", "values.txt", "matrices", *faults.ODD_PLACES}
     try:
         ended = FAMILIES[family][0](number, limber)
         # Results that found no other place are where the error says.

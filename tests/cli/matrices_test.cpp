@@ -78,5 +78,64 @@ TEST_F(Matrices, OfARobotsLinkBendAsACantilever) {
   EXPECT_EQ(place_.limber("static s.toml --out o2 --cache c").status, 0);
 }
 
+/// A free superelement that spins: its recovery rows say where its mass moves.
+class Superelement : public Matrices {
+ protected:
+  [[nodiscard]] CommandResult run(const std::string& level,
+                                  const std::string& recovery) const {
+    const std::string folder = kFolder + "superelement";
+    place_.write("arm.urdf",
+                 "<robot name='arm'><link name='arm'/><flexible link='arm'>"
+                 "<matrices path='" +
+                     folder + "' mass='7.4'" + recovery +
+                     "/><basis eigenmodes='4'/><interface name='tip' node='2'/>"
+                     "</flexible></robot>\n");
+    place_.write("s.toml",
+                 "robot = 'arm.urdf'\n[time]\nduration = 0.002\nstep = "
+                 "0.0002\n[output]\npictures = false\n[fidelity]\ndefault = '" +
+                     level +
+                     "'\n[[load]]\nname = 'tip'\nlink = 'arm'\ninterface = "
+                     "'tip'\nforce = [0, 1, 0]\n");
+    return place_.limber("run s.toml --out o --cache c");
+  }
+};
+
+TEST_F(Superelement, RunsAtLevelUncoupled) {
+  const CommandResult result = run("uncoupled", "");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("only levels rigid and uncoupled"));
+  EXPECT_THAT(result.out + result.errors, HasSubstr("found K.mtx: stiffness"));
+}
+
+TEST_F(Superelement, IsRefusedAboveWithTheReason) {
+  for (const char* level : {"one-way", "coupled"}) {
+    const CommandResult result = run(level, "");
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors, HasSubstr("rows without a node"));
+    EXPECT_THAT(result.errors, HasSubstr("choose level uncoupled"));
+  }
+}
+
+TEST_F(Superelement, WithRecoveryRowsRunsAtLevelCoupled) {
+  const std::string folder = kFolder + "superelement/recovery/";
+  const CommandResult result =
+      run("coupled", " recovery_file='" + folder + "otm.mtx' points_file='" +
+                         folder + "points.csv'");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  const CommandResult reduced = place_.limber(
+      "reduce --matrices " + kFolder + "superelement --mass 7.4 --recovery " +
+      folder + "otm.mtx " + folder + "points.csv -o b.h5 --interface node:110");
+  EXPECT_EQ(reduced.status, 0) << reduced.errors;
+  EXPECT_EQ(reduced.errors, "");
+}
+
+TEST_F(Superelement, NeedsMatricesForItsRecoveryRows) {
+  EXPECT_THAT(place_
+                  .limber("reduce a.msh --recovery x.mtx --youngs-modulus 1 "
+                          "--poisson-ratio 0.3 --density 1 -o b.h5")
+                  .errors,
+              HasSubstr("--recovery goes with --matrices"));
+}
+
 }  // namespace
 }  // namespace limber::test::matrices_test

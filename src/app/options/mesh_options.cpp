@@ -54,6 +54,10 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
                   "M.mtx and nodes.csv, or these files; lengths in --unit, "
                   "forces in N, times in s")
       ->each(release);
+  command.add_option("--recovery", options.recovery,
+                     "Recovery rows of a superelement in --matrices: a matrix "
+                     "with a column for each of its rows, and a table of the "
+                     "points that they move");
   command.add_option("--mass", options.mass,
                      "Mass of the model of --matrices, which its program "
                      "prints: it checks their unit [kg]");
@@ -112,6 +116,7 @@ flexbody::Recipe make_matrix_recipe(const MeshOptions& options) {
   flexbody::MeshSource& source = recipe.mesh;
   source.matrices.paths = {options.matrices.begin(), options.matrices.end()};
   source.matrices.mass = options.mass;
+  source.matrices.recovery = {options.recovery.begin(), options.recovery.end()};
   source.unit = options.unit;
   source.file = source.matrices.paths.front().lexically_normal();
   if (!source.file.has_filename()) source.file = source.file.parent_path();
@@ -125,6 +130,8 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   if (!options.matrices.empty()) return make_matrix_recipe(options);
   if (options.mass != 0.0)
     throw InputError("--mass goes with --matrices; a mesh has its density");
+  if (!options.recovery.empty())
+    throw InputError("--recovery goes with --matrices; a mesh has all nodes");
   check(options);
   flexbody::Recipe recipe;
   recipe.mesh.file = options.file;

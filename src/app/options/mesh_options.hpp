@@ -16,6 +16,7 @@ namespace limber::app {
 struct MeshOptions {
   std::string file;
   std::vector<std::string> matrices;  ///< a folder, or files; empty: a mesh
+  std::vector<std::string> recovery;  ///< files of their recovery rows
   double mass = 0.0;                  ///< of the matrices, as stated [kg]
   flexbody::Material material;
   double size = 0.0;  ///< element size [mesh units]; 0: the file's

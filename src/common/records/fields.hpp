@@ -49,7 +49,7 @@ namespace detail {
 
 template <std::size_t n, typename T>
 constexpr auto tie_fields(T& t) {
-  static_assert(n >= 1 && n <= 23, "add a case");
+  static_assert(n >= 1 && n <= 24, "add a case");
   if constexpr (n == 1) {
     auto& [a] = t;
     return std::tie(a);
@@ -119,11 +119,16 @@ constexpr auto tie_fields(T& t) {
         t;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, u, v,
                     w, x);
-  } else {
+  } else if constexpr (n == 23) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, u, v, w, x,
            y] = t;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, u, v,
                     w, x, y);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, u, v, w, x, y,
+           z] = t;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, u, v,
+                    w, x, y, z);
   }
 }
 

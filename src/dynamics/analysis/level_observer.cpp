@@ -99,7 +99,9 @@ LevelObserver::LevelObserver(const SystemModel& model)
       no_memory_(model.pair_memory_size) {
   const std::vector<double> reaches = find_reaches(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].reduced) continue;
+    // Without S1 and S2 nothing is known of what a level leaves out.
+    const auto& reduced = model.bodies[b].reduced;
+    if (!reduced || !reduced->inertia_record.gap.empty()) continue;
     observed_.emplace_back(model, static_cast<BodyIndex>(b), reaches);
   }
 }

@@ -106,6 +106,15 @@ void check_reduced(const std::string& what,
   }
 }
 
+void check_level(const std::string& what, const flexbody::ReducedBody& reduced,
+                 Fidelity fidelity) {
+  const std::string& gap = reduced.inertia_record.gap;
+  if (gap.empty() || fidelity <= Fidelity::uncoupled) return;
+  throw InputError(
+      fmt::format("{}: at level {} it cannot be: {}; or choose level uncoupled",
+                  what, to_string(fidelity), gap));
+}
+
 void check_integrals(const std::string& what,
                      const flexbody::ReducedBody& reduced) {
   const flexbody::InertiaShapeIntegrals& integrals = reduced.integrals;

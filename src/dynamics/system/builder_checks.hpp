@@ -26,6 +26,10 @@ void check_inertia(const std::string& what, double mass,
 void check_reduced(const std::string& what,
                    const flexbody::ReducedBody& reduced, bool has_modes);
 
+/// @throws InputError for a level whose inertia its matrices do not determine
+void check_level(const std::string& what, const flexbody::ReducedBody& reduced,
+                 Fidelity fidelity);
+
 /// Shape integrals: sizes, and every entry finite.
 void check_integrals(const std::string& what,
                      const flexbody::ReducedBody& reduced);

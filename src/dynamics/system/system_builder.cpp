@@ -101,6 +101,7 @@ BodyIndex SystemBuilder::add_flexible_body(
                         ": its level has no reduced basis; add_full_body");
   }
   check_reduced(what, *reduced, fidelity != Fidelity::rigid);
+  check_level(what, *reduced, fidelity);
   BodyModel body;
   body.fidelity = fidelity;
   body.clamped = reduced->clamped;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <system_error>
@@ -28,9 +29,18 @@ namespace {
 
 using Path = std::filesystem::path;
 
+/// Rows of a table whose nodes have components.
+Eigen::Index count_components(const ModelFile& model) {
+  Eigen::Index count = 0;
+  for (const long digits : model.components)
+    if (digits > 0) count += std::ssize(std::to_string(digits));
+  return count;
+}
+
 class FileSetReader {
  public:
-  FileSet read(const std::vector<Path>& paths) {
+  FileSet read(const std::vector<Path>& paths,
+               const std::vector<Path>& recovery) {
     std::vector<std::string> names;
     for (const Path& path : paths) {
       names.push_back(path.string());
@@ -42,9 +52,12 @@ class FileSetReader {
       }
     }
     set_.source = fmt::format("{}", fmt::join(names, ", "));
+    for (const Path& file : recovery) add_recovery_file(file);
     read_matrix_files();
     set_.is_calculix = files_.contains(ModelFileKind::dof_lines);
     read_row_files();
+    take_recovery_rows();
+    take_points();
     read_node_files();
     if (!passed_over_.empty())
       set_.found.push_back(fmt::format("not recognised, not used: {}",
@@ -85,6 +98,91 @@ class FileSetReader {
     files_[kind].push_back(file);
   }
 
+  void add_recovery_file(const Path& file) {
+    const ModelFileKind kind = recognise_file(file);
+    switch (kind) {
+      case ModelFileKind::matrix_market:
+        set_.matrices.push_back(read_matrix_market(file, true));
+        return;
+      case ModelFileKind::op4:
+        for (SourceMatrix& source : read_op4(file, true))
+          set_.matrices.push_back(std::move(source));
+        return;
+      case ModelFileKind::node_table:
+        set_points(file);
+        return;
+      case ModelFileKind::row_table:
+        set_recovery_rows(read_row_table(file));
+        return;
+      default:
+        throw InputError(fmt::format(
+            "{}:1: {}. Expected recovery rows: a matrix (Matrix Market, OP4 in "
+            "ASCII), a table of their points or of their rows.",
+            file.string(), name_of(kind)));
+    }
+  }
+
+  void set_points(const Path& file) {
+    if (set_.points)
+      throw InputError(
+          fmt::format("{}: the points of the recovery rows are in {}, too. "
+                      "Expected one table.",
+                      file.string(), set_.points->file.string()));
+    set_.points = read_node_table(file);
+    note(file, fmt::format("points of the recovery rows, {} points",
+                           set_.points->tags.size()));
+  }
+
+  void set_recovery_rows(RowTable table) {
+    if (set_.recovery_rows)
+      throw InputError(fmt::format(
+          "{}: the rows of the recovery matrix are in {}, too. Expected one "
+          "table.",
+          table.file.string(), set_.recovery_rows->file.string()));
+    note(table.file, fmt::format("what the recovery rows are, {} rows",
+                                 table.labels.size()));
+    set_.recovery_rows = std::move(table);
+  }
+
+  /// Of tables of rows beside the model's that of the recovery matrix.
+  void take_recovery_rows() {
+    const SourceMatrix* const recovery = find_recovery(set_);
+    if (recovery == nullptr || set_.recovery_rows) return;
+    const auto size = [](const RowTable& t) {
+      return static_cast<Eigen::Index>(t.labels.size());
+    };
+    const auto& entries = recovery->matrix.entries;
+    if (entries.rows() == entries.cols()) return;
+    const auto fits = [&](const RowTable& t) {
+      return size(t) == entries.rows();
+    };
+    const auto found =
+        std::find_if(set_.row_tables.begin(), set_.row_tables.end(), fits);
+    if (found == set_.row_tables.end()) return;
+    set_recovery_rows(std::move(*found));
+    set_.row_tables.erase(found);
+  }
+
+  /// Of two tables of nodes that which fits the recovery matrix.
+  void take_points() {
+    const SourceMatrix* const recovery = find_recovery(set_);
+    std::vector<Path>& tables = files_[ModelFileKind::node_table];
+    if (recovery == nullptr || set_.points || tables.size() < 2) return;
+    const Eigen::Index rows = recovery->matrix.entries.rows();
+    const auto fits = [&](const Path& file) {
+      const ModelFile points = read_node_table(file);
+      const auto count = static_cast<Eigen::Index>(points.tags.size());
+      return 3 * count == rows || 6 * count == rows ||
+             count_components(points) == rows;
+    };
+    std::vector<Path> fitting;
+    std::copy_if(tables.begin(), tables.end(), std::back_inserter(fitting),
+                 fits);
+    if (fitting.size() != 1) return;
+    std::erase(tables, fitting.front());
+    set_points(fitting.front());
+  }
+
   void add(SourceMatrix source, const Path& file) {
     if (source.role == MatrixRole::unknown)
       source.role = guess_role(file.filename().string());
@@ -95,14 +193,23 @@ class FileSetReader {
     using One = SourceMatrix (*)(const Path&);
     using Many = std::vector<SourceMatrix> (*)(const Path&);
     constexpr std::array<std::pair<ModelFileKind, One>, 4> kOne = {{
-        {ModelFileKind::matrix_market, read_matrix_market},
+        {ModelFileKind::matrix_market,
+         [](const Path& file) {
+           const bool is_moment = find_second_moment(file) >= 0;
+           SourceMatrix source = read_matrix_market(file, is_moment);
+           if (is_moment) {
+             source.role = MatrixRole::moment;
+             source.name = file.stem().string();
+           }
+           return source;
+         }},
         {ModelFileKind::coordinates, read_coordinate_text},
         {ModelFileKind::matrix_input, read_matrix_input},
         {ModelFileKind::harwell_boeing, read_harwell_boeing},
     }};
     constexpr std::array<std::pair<ModelFileKind, Many>, 3> kMany = {{
         {ModelFileKind::substructure, read_substructure},
-        {ModelFileKind::op4, read_op4},
+        {ModelFileKind::op4, [](const Path& file) { return read_op4(file); }},
         {ModelFileKind::nastran, read_dmig},
     }};
     for (const auto& [kind, read_one] : kOne)
@@ -258,8 +365,27 @@ class FileSetReader {
 
 }  // namespace
 
-FileSet read_file_set(const std::vector<std::filesystem::path>& paths) {
-  return FileSetReader().read(paths);
+SourceMatrix* find_recovery(FileSet& set) {
+  return find_role(set, MatrixRole::recovery, "recovery");
+}
+
+SourceMatrix* find_role(FileSet& set, MatrixRole role, const char* name) {
+  SourceMatrix* found = nullptr;
+  for (SourceMatrix& source : set.matrices) {
+    if (source.role != role) continue;
+    if (found != nullptr)
+      throw InputError(fmt::format(
+          "{}: two {} matrices: {} and {}. Expected "
+          "one; give the files to be read.",
+          set.source, name, describe_matrix(*found), describe_matrix(source)));
+    found = &source;
+  }
+  return found;
+}
+
+FileSet read_file_set(const std::vector<std::filesystem::path>& paths,
+                      const std::vector<std::filesystem::path>& recovery) {
+  return FileSetReader().read(paths, recovery);
 }
 
 }  // namespace limber::fem

@@ -20,15 +20,26 @@ struct FileSet {
   std::vector<RowTable> row_tables;
   std::vector<long> node_map;  ///< node of each block of rows; or none
   std::optional<ModelFile> nodes;
-  std::optional<InputDeck> deck;  ///< of which `nodes` are a copy
-  bool is_calculix = false;       ///< its .dof is there
-  bool is_expanded = false;       ///< from shells or beams, by CalculiX
+  std::optional<RowTable> recovery_rows;  ///< of the recovery matrix
+  std::optional<ModelFile> points;        ///< of these rows
+  std::optional<InputDeck> deck;          ///< of which `nodes` are a copy
+  bool is_calculix = false;               ///< its .dof is there
+  bool is_expanded = false;               ///< from shells or beams, by CalculiX
 };
 
+/// The only matrix of a role, null if there is none. @throws InputError if
+/// there are two, which it calls `name`
+[[nodiscard]] SourceMatrix* find_role(FileSet& set, MatrixRole role,
+                                      const char* name);
+/// The matrix of recovery rows.
+[[nodiscard]] SourceMatrix* find_recovery(FileSet& set);
+
 /// Finds out what each file, also in folders, is and reads it.
+/// @param recovery files of recovery rows: a matrix, tables of points and rows
 /// @throws InputError for files that cannot be read, are none of the formats
 /// (unless they lie in a folder, where others may lie), or are there twice
 [[nodiscard]] FileSet read_file_set(
-    const std::vector<std::filesystem::path>& paths);
+    const std::vector<std::filesystem::path>& paths,
+    const std::vector<std::filesystem::path>& recovery = {});
 
 }  // namespace limber::fem

@@ -127,30 +127,41 @@ std::size_t MatrixEntries::find_line(int row, int column) const {
   return 0;
 }
 
+Sparse MatrixEntries::assemble(Eigen::Index rows, Eigen::Index columns,
+                               const SourceMatrix& source) const {
+  Sparse given(rows, columns);
+  const std::vector<std::uint32_t> order = sort();
+  given.reserve(static_cast<Eigen::Index>(order.size()));
+  std::size_t k = 0;
+  for (int j = 0; j < columns; ++j) {
+    given.startVec(j);
+    for (; k < order.size() && columns_[order[k]] == j; ++k) {
+      const std::uint32_t e = order[k];
+      if (k > 0 && columns_[order[k - 1]] == j &&
+          rows_[order[k - 1]] == rows_[e]) {
+        throw InputError(fmt::format(
+            "{}:{}: entry {} is given twice, first on line {}. Expected "
+            "each entry once.",
+            source.matrix.file, lines_[e], place_entry(source, rows_[e], j),
+            lines_[order[k - 1]]));
+      }
+      given.insertBackByOuterInner(j, rows_[e]) = values_[e];
+    }
+  }
+  given.finalize();
+  return given;
+}
+
+void MatrixEntries::make_rectangular(std::size_t rows, std::size_t columns,
+                                     SourceMatrix& source) && {
+  source.matrix.entries = assemble(static_cast<Eigen::Index>(rows),
+                                   static_cast<Eigen::Index>(columns), source);
+  source.matrix.digits = count_all_digits();
+}
+
 void MatrixEntries::make_symmetric(std::size_t size, SourceMatrix& source) && {
   const auto n = static_cast<Eigen::Index>(size);
-  Sparse given(n, n);
-  {
-    const std::vector<std::uint32_t> order = sort();
-    given.reserve(static_cast<Eigen::Index>(order.size()));
-    std::size_t k = 0;
-    for (int j = 0; j < n; ++j) {
-      given.startVec(j);
-      for (; k < order.size() && columns_[order[k]] == j; ++k) {
-        const std::uint32_t e = order[k];
-        if (k > 0 && columns_[order[k - 1]] == j &&
-            rows_[order[k - 1]] == rows_[e]) {
-          throw InputError(fmt::format(
-              "{}:{}: entry {} is given twice, first on line {}. Expected "
-              "each entry once.",
-              source.matrix.file, lines_[e], place_entry(source, rows_[e], j),
-              lines_[order[k - 1]]));
-        }
-        given.insertBackByOuterInner(j, rows_[e]) = values_[e];
-      }
-    }
-    given.finalize();
-  }
+  const Sparse given = assemble(n, n, source);
   source.matrix.digits = count_all_digits();
 
   const Sparse transposed = given.transpose();

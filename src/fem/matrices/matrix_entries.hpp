@@ -36,7 +36,15 @@ class MatrixEntries {
   /// twice, the triangles differ or an entry lacks its counterpart
   void make_symmetric(std::size_t size, SourceMatrix& source) &&;
 
+  /// The matrix as it is given, which need not be square.
+  /// @throws InputError naming file and lines where an entry is given twice
+  void make_rectangular(std::size_t rows, std::size_t columns,
+                        SourceMatrix& source) &&;
+
  private:
+  [[nodiscard]] Eigen::SparseMatrix<double> assemble(
+      Eigen::Index rows, Eigen::Index columns,
+      const SourceMatrix& source) const;
   [[nodiscard]] int count_all_digits() const;
   [[nodiscard]] std::vector<std::uint32_t> sort() const;
   [[nodiscard]] std::size_t find_line(int row, int column) const;

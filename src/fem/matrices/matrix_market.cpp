@@ -127,14 +127,15 @@ void read_array(TextScanner& scanner, const MarketHead& head,
 
 }  // namespace
 
-SourceMatrix read_matrix_market(const std::filesystem::path& file) {
+SourceMatrix read_matrix_market(const std::filesystem::path& file,
+                                bool is_recovery) {
   TextScanner scanner(file);
   const MarketHead head = read_head(scanner);
-  if (head.rows != head.columns) {
-    scanner.fail(
-        fmt::format("{} rows and {} columns. Expected a square "
-                    "matrix.",
-                    head.rows, head.columns));
+  if (head.is_symmetric && (head.rows != head.columns || is_recovery)) {
+    scanner.fail(fmt::format(
+        "'symmetric', {} rows and {} columns. Expected {}.", head.rows,
+        head.columns,
+        is_recovery ? "'general' for recovery rows" : "a square matrix"));
   }
   MatrixEntries entries;
   if (head.is_integer) entries.set_exact();
@@ -149,6 +150,13 @@ SourceMatrix read_matrix_market(const std::filesystem::path& file) {
   SourceMatrix source;
   source.matrix.file = file.string();
   source.format = "Matrix Market";
+  if (is_recovery || head.rows != head.columns) {
+    source.role = MatrixRole::recovery;
+    std::move(entries).make_rectangular(static_cast<std::size_t>(head.rows),
+                                        static_cast<std::size_t>(head.columns),
+                                        source);
+    return source;
+  }
   std::move(entries).make_symmetric(static_cast<std::size_t>(head.rows),
                                     source);
   return source;

@@ -12,9 +12,11 @@ namespace limber::fem {
 /// (lower triangle) or general. Also Ansys' *EXPORT,,MMF.
 /// Source: Boisvert, Pozo, Remington, "The Matrix Market Exchange Formats",
 /// NISTIR 5935 (1996).
+/// A general matrix that is not square is one of recovery rows.
+/// @param is_recovery whether it is one whatever its shape
 /// @throws InputError with file and line
-[[nodiscard]] SourceMatrix read_matrix_market(
-    const std::filesystem::path& file);
+[[nodiscard]] SourceMatrix read_matrix_market(const std::filesystem::path& file,
+                                              bool is_recovery = false);
 
 /// Reads a vector of integers (array, n x 1): the node of each block of rows,
 /// as Ansys exports its mapping. @throws InputError with file and line

@@ -46,6 +46,10 @@ struct MatrixModel {
   /// equations * rows. No rows if there are none.
   std::vector<MatrixRow> condensed;
   Eigen::SparseMatrix<double> equations;  ///< condensed x rows
+  bool has_recovery = false;  ///< whether equations are of recovery rows
+  /// Second moments of the mass, xx, yy, zz, xy, xz, yz, rows x rows each; all
+  /// empty if they are not known (second_moments.hpp).
+  std::array<Eigen::SparseMatrix<double>, 6> moments;
   std::vector<MatrixNodeSet> sets;
   /// For pictures only: edges and triangles of elements, as node indices.
   std::vector<std::array<int, 2>> edges;

@@ -252,6 +252,8 @@ RowTable read_row_table(const std::filesystem::path& file) {
                       "UX to ROTZ, or 0 of a scalar row.",
                       echo(scanner.line())));
     }
+    // Scalar rows without a number are not the same row.
+    if (label == RowLabel{}) label.node = -row;
     rows.add(scanner, row, label);
   }
   if (rows.empty()) scanner.fail_at_end("lines row, node, component");

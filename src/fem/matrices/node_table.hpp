@@ -19,7 +19,7 @@ namespace limber::fem {
 
 /// Reads a table of rows: lines row, node, component. Rows from 1, each once,
 /// in any order; components 1 to 6, or UX UY UZ ROTX ROTY ROTZ (RX RY RZ), 0
-/// for a scalar row. Also Ansys' .mapping.
+/// for a scalar row, whose node may be 0. Also Ansys' .mapping.
 /// @throws InputError with file and line
 [[nodiscard]] RowTable read_row_table(const std::filesystem::path& file);
 

@@ -190,7 +190,8 @@ class Op4Reader {
 
 }  // namespace
 
-std::vector<SourceMatrix> read_op4(const std::filesystem::path& file) {
+std::vector<SourceMatrix> read_op4(const std::filesystem::path& file,
+                                   bool is_recovery) {
   TextScanner scanner(file);
   std::vector<SourceMatrix> matrices;
   while (scanner.next_text()) {
@@ -202,7 +203,12 @@ std::vector<SourceMatrix> read_op4(const std::filesystem::path& file) {
     source.name = head.name;
     source.role =
         head.rows == head.columns ? guess_role(head.name) : MatrixRole::other;
-    if (source.role != MatrixRole::other) {
+    if (is_recovery) {
+      source.role = MatrixRole::recovery;
+      std::move(entries).make_rectangular(
+          static_cast<std::size_t>(head.rows),
+          static_cast<std::size_t>(head.columns), source);
+    } else if (source.role != MatrixRole::other) {
       std::move(entries).make_symmetric(static_cast<std::size_t>(head.rows),
                                         source);
     }

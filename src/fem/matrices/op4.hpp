@@ -12,8 +12,9 @@ namespace limber::fem {
 /// or BIGMAT, real in single or double precision. Lengths may be counted in
 /// words or in numbers. Matrices that are not square are passed over.
 /// Source: MSC Nastran DMAP Programmer's Guide, "OUTPUT4".
+/// @param is_recovery all are recovery rows, whatever their shape
 /// @throws InputError with file and line
 [[nodiscard]] std::vector<SourceMatrix> read_op4(
-    const std::filesystem::path& file);
+    const std::filesystem::path& file, bool is_recovery = false);
 
 }  // namespace limber::fem

@@ -14,45 +14,35 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/fem/matrices/file_set.hpp"
+#include "limber/fem/matrices/recovery.hpp"
 #include "limber/fem/matrices/row_labels.hpp"
+#include "limber/fem/matrices/second_moments.hpp"
 
 namespace limber::fem {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// The only matrix of a role, null if there is none.
-SourceMatrix* find_role(FileSet& set, MatrixRole role, const char* name) {
-  SourceMatrix* found = nullptr;
-  for (SourceMatrix& source : set.matrices) {
-    if (source.role != role) continue;
-    if (found != nullptr)
-      throw InputError(fmt::format(
-          "{}: two {} matrices: {} and {}. Expected "
-          "one; give the files to be read.",
-          set.source, name, describe_matrix(*found), describe_matrix(source)));
-    found = &source;
-  }
-  return found;
-}
-
 class ModelMaker {
  public:
   explicit ModelMaker(const MatrixFiles& files)
-      : set_(read_file_set(files.paths)) {}
+      : set_(read_file_set(files.paths, files.recovery)) {}
 
   MatrixModel make() {
     choose();
     check_axes();
     label_matrices();
     unite_rows();
+    check_recovery(set_, labels_.size());
     make_nodes();
     make_rows();
     tell_roles_apart();
+    take_second_moments(set_, model_);
     note_matrices();
     add_sets();
     if (set_.is_calculix && set_.deck)
       add_constraints(*set_.deck, labels_, model_);
+    add_recovery(set_, labels_, places_, model_);
     if (set_.nodes) add_pictures(set_.nodes->elements, model_);
     return std::move(model_);
   }
@@ -168,8 +158,10 @@ class ModelMaker {
       for (const DeckEquation& equation : set_.deck->equations)
         used.push_back(equation.terms[0].first.node);
     }
+    if (const SourceMatrix* const recovery = find_recovery(set_))
+      for (const RowLabel& label : recovery->labels) used.push_back(label.node);
     std::sort(used.begin(), used.end());
-    std::map<long, Vector3> nodes;
+    std::map<long, Vector3> nodes = list_points(set_);
     for (std::size_t i = 0; i < set_.nodes->tags.size(); ++i)
       if (std::binary_search(used.begin(), used.end(), set_.nodes->tags[i]))
         nodes[set_.nodes->tags[i]] = set_.nodes->x[i];
@@ -184,7 +176,9 @@ class ModelMaker {
       model_.x.col(static_cast<Eigen::Index>(model_.tags.size())) = x;
       model_.tags.push_back(static_cast<std::size_t>(tag));
     }
-    const std::size_t without = set_.nodes->tags.size() - nodes.size();
+    const auto without =
+        std::count_if(set_.nodes->tags.begin(), set_.nodes->tags.end(),
+                      [&](long tag) { return !places_.contains(tag); });
     if (without > 0)
       set_.found.push_back(
           fmt::format("{} nodes have no rows (supported, "
@@ -273,7 +267,16 @@ class ModelMaker {
           source->format, source->name.empty() ? "" : " ", source->name,
           source->labels.size(), source->triangles, matrix->digits));
     for (const SourceMatrix& source : set_.matrices)
-      if (&source != K_ && &source != M_)
+      if (source.role == MatrixRole::recovery)
+        found.push_back(fmt::format(
+            "{}: recovery, {}, {} rows, {} digits",
+            std::filesystem::path(source.matrix.file).filename().string(),
+            source.format, source.labels.size(), source.matrix.digits));
+      else if (source.role == MatrixRole::moment)
+        found.push_back(fmt::format(
+            "{}: second moment of the mass",
+            std::filesystem::path(source.matrix.file).filename().string()));
+      else if (&source != K_ && &source != M_)
         found.push_back(fmt::format(
             "{}{}{}: not used",
             std::filesystem::path(source.matrix.file).filename().string(),

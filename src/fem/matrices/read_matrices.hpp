@@ -12,6 +12,8 @@ namespace limber::fem {
 /// not looked at.
 struct MatrixFiles {
   std::vector<std::filesystem::path> paths;
+  /// Recovery rows and the table of their points, unless `paths` have them.
+  std::vector<std::filesystem::path> recovery = {};
 };
 
 /// Reads a finite-element model by its matrices: finds by content which file is

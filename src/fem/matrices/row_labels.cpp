@@ -28,22 +28,6 @@ void append_node(long node, int components, std::vector<RowLabel>& labels) {
   for (int c = 1; c <= components; ++c) labels.push_back({node, c});
 }
 
-void check_twice(const SourceMatrix& source) {
-  std::vector<std::size_t> order(source.labels.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(source.labels[a], a) < std::pair(source.labels[b], b);
-  });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (source.labels[order[i]] != source.labels[order[i - 1]]) continue;
-    throw InputError(fmt::format(
-        "{}: rows {} and {} are both {}. Expected each node's component "
-        "once.",
-        source.matrix.file, order[i - 1] + 1, order[i] + 1,
-        name_row(source.labels[order[i]])));
-  }
-}
-
 /// CalculiX writes every diagonal entry, also zeros.
 void check_diagonal(const SourceMatrix& source,
                     const std::vector<RowLabel>& labels) {
@@ -99,6 +83,18 @@ void label_by_map(const FileSet& set, std::size_t rows, SourceMatrix& source) {
     append_node(node, components, source.labels);
 }
 
+bool has_own_components(const ModelFile& nodes) {
+  return !nodes.components.empty() && nodes.components[0] != 0;
+}
+
+std::vector<RowLabel> list_components(const ModelFile& nodes) {
+  std::vector<RowLabel> labels;
+  for (std::size_t i = 0; i < nodes.tags.size(); ++i)
+    for (const char digit : std::to_string(nodes.components[i]))
+      labels.push_back({nodes.tags[i], digit - '0'});
+  return labels;
+}
+
 void label_by_nodes(FileSet& set, std::size_t rows, SourceMatrix& source) {
   if (!set.nodes)
     throw InputError(fmt::format(
@@ -106,12 +102,9 @@ void label_by_nodes(FileSet& set, std::size_t rows, SourceMatrix& source) {
         "which node and component each of the {} rows is.",
         set.source, list_found(set), rows));
   const ModelFile& nodes = *set.nodes;
-  const bool has_components =
-      !nodes.components.empty() && nodes.components[0] != 0;
+  const bool has_components = has_own_components(nodes);
   if (has_components) {
-    for (std::size_t i = 0; i < nodes.tags.size(); ++i)
-      for (const char digit : std::to_string(nodes.components[i]))
-        source.labels.push_back({nodes.tags[i], digit - '0'});
+    source.labels = list_components(nodes);
   } else {
     const int components = find_components(rows, nodes.tags.size());
     // A table has its own order; programs number by ascending nodes.
@@ -136,12 +129,31 @@ void label_by_nodes(FileSet& set, std::size_t rows, SourceMatrix& source) {
 
 }  // namespace
 
-std::string describe_matrix(const SourceMatrix& source) {
-  return fmt::format(
-      "{}{}{} ({}, {} rows)",
-      std::filesystem::path(source.matrix.file).filename().string(),
-      source.name.empty() ? "" : " ", source.name, source.format,
-      source.matrix.entries.rows());
+void check_twice(const SourceMatrix& source) {
+  std::vector<std::size_t> order(source.labels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(source.labels[a], a) < std::pair(source.labels[b], b);
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (source.labels[order[i]] != source.labels[order[i - 1]]) continue;
+    throw InputError(fmt::format(
+        "{}: rows {} and {} are both {}. Expected each node's component "
+        "once.",
+        source.matrix.file, order[i - 1] + 1, order[i] + 1,
+        name_row(source.labels[order[i]])));
+  }
+}
+
+void label_by_points(const ModelFile& points, SourceMatrix& recovery) {
+  if (has_own_components(points)) {
+    recovery.labels = list_components(points);
+    return;
+  }
+  const auto rows = static_cast<std::size_t>(recovery.matrix.entries.rows());
+  const int components = find_components(rows, points.tags.size());
+  for (const long point : points.tags)
+    append_node(point, components, recovery.labels);
 }
 
 std::string list_found(const FileSet& set) {

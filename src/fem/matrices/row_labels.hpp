@@ -14,8 +14,11 @@ namespace limber::fem {
 /// @throws InputError if no table or list of nodes fits, or two do
 void label_rows(FileSet& set, Eigen::Index rows, SourceMatrix& source);
 
-/// "K.mtx KAAX (DMIG, 18 rows)", for messages.
-[[nodiscard]] std::string describe_matrix(const SourceMatrix& source);
+/// Labels recovery rows by a table of their points; none if it does not fit.
+void label_by_points(const ModelFile& points, SourceMatrix& recovery);
+
+/// @throws InputError for a node's component that two rows have
+void check_twice(const SourceMatrix& source);
 
 /// All that was found, for messages.
 [[nodiscard]] std::string list_found(const FileSet& set);

@@ -24,6 +24,9 @@ bool has_role_word(const std::string& name, std::string_view word) {
   return false;
 }
 
+constexpr std::array<std::string_view, 6> kMoments = {"S_XX", "S_YY", "S_ZZ",
+                                                      "S_XY", "S_XZ", "S_YZ"};
+
 }  // namespace
 
 std::string name_row(const RowLabel& label) {
@@ -49,6 +52,21 @@ MatrixRole guess_role(const std::string& name) {
     if (k != m) return k ? MatrixRole::stiffness : MatrixRole::mass;
   }
   return MatrixRole::unknown;
+}
+
+std::string describe_matrix(const SourceMatrix& source) {
+  return fmt::format(
+      "{}{}{} ({}, {} rows)",
+      std::filesystem::path(source.matrix.file).filename().string(),
+      source.name.empty() ? "" : " ", source.name, source.format,
+      source.matrix.entries.rows());
+}
+
+int find_second_moment(const std::filesystem::path& file) {
+  const std::string name = to_upper(file.stem().string());
+  for (std::size_t i = 0; i < kMoments.size(); ++i)
+    if (name == kMoments[i]) return static_cast<int>(i);
+  return -1;
 }
 
 }  // namespace limber::fem

@@ -26,7 +26,14 @@ struct RowLabel {
 /// "10.1" for node 10, translation along x.
 [[nodiscard]] std::string name_row(const RowLabel& label);
 
-enum class MatrixRole { unknown, stiffness, mass, other };
+enum class MatrixRole {
+  unknown,
+  stiffness,
+  mass,
+  recovery,  ///< displacements of points from the rows; need not be square
+  moment,    ///< a second moment of the mass, second_moments.hpp
+  other
+};
 
 /// "KAAX", "job_STIF1", "stiffness": by the words that programs use.
 [[nodiscard]] MatrixRole guess_role(const std::string& name);
@@ -41,6 +48,13 @@ struct SourceMatrix {
   /// Of each row; none if the file only numbers them.
   std::vector<RowLabel> labels;
 };
+
+/// "K.mtx KAAX (DMIG, 18 rows)", for messages.
+[[nodiscard]] std::string describe_matrix(const SourceMatrix& source);
+
+/// Index in MatrixModel::moments of a file called S_xx.mtx and so on; -1 for
+/// any other name.
+[[nodiscard]] int find_second_moment(const std::filesystem::path& file);
 
 /// What rows are, in the order of the matrices.
 struct RowTable {

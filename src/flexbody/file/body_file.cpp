@@ -175,6 +175,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_rows(out, body);
   write_groups(out, body);
   write_interfaces(out, body);
+  write_inertia_record(out, body.inertia_record);
   write_locking(out, body.locking);
   write_selection(out, body.selection);
   write_load_modes(out, body.load_modes);
@@ -364,6 +365,7 @@ ReducedBody read_body(const std::filesystem::path& file, StressTables stress) {
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);
   read_interfaces(reader, counts[1], body);
+  body.inertia_record = read_inertia_record(reader);
   body.locking = read_locking(reader);
   body.selection = read_selection(reader);
   body.load_modes = read_load_modes(reader);

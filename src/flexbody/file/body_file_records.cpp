@@ -79,6 +79,24 @@ std::optional<MeshLocking> read_locking(const BodyFileReader& reader) {
   return MeshLocking{values(0, 0), values(1, 0)};
 }
 
+void write_inertia_record(Hdf5File& out, const InertiaRecord& record) {
+  if (!record.gap.empty())
+    out.write("integrals/gap", record.gap,
+              "why S1 and S2 are not known, and are zero");
+  if (!record.notice.empty())
+    out.write("integrals/notice", record.notice,
+              "why S1 and S2 have a large error");
+}
+
+InertiaRecord read_inertia_record(const BodyFileReader& reader) {
+  InertiaRecord record;
+  if (reader.in().has("integrals/gap"))
+    record.gap = reader.in().read_text("integrals/gap");
+  if (reader.in().has("integrals/notice"))
+    record.notice = reader.in().read_text("integrals/notice");
+  return record;
+}
+
 void write_load_modes(Hdf5File& out,
                       const std::vector<LoadModesRecord>& records) {
   std::string names;

@@ -9,6 +9,7 @@
 #include "limber/flexbody/model/initial_deformation.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
 #include "limber/flexbody/model/mesh_locking.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
 
 /// Further content of a body file: how the modes were chosen, and the initial
@@ -24,6 +25,10 @@ void write_locking(Hdf5File& out, const std::optional<MeshLocking>& locking);
 /// None if the body has no record of it.
 [[nodiscard]] std::optional<MeshLocking> read_locking(
     const BodyFileReader& reader);
+
+void write_inertia_record(Hdf5File& out, const InertiaRecord& record);
+/// Empty if the body has no record of it.
+[[nodiscard]] InertiaRecord read_inertia_record(const BodyFileReader& reader);
 
 void write_load_modes(Hdf5File& out,
                       const std::vector<LoadModesRecord>& records);

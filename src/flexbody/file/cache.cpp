@@ -20,7 +20,7 @@ namespace {
 
 // Increment when the reduction or its stress modes change, to invalidate old
 // entries.
-constexpr int kReductionVersion = 7;
+constexpr int kReductionVersion = 8;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 5;
 // The same for second-order kinematics.
@@ -226,7 +226,7 @@ CachedBody load_or_reduce(const Recipe& recipe,
     if (!body) return std::nullopt;
     // Links of equal shape share an entry; the name is the caller's.
     body->name = recipe.name;
-    return CachedBody{std::move(*body), true, mesh.notices};
+    return CachedBody{std::move(*body), true, mesh.notices, mesh.found};
   };
   const auto known = find_mesh_record(recipe.mesh, reducer.mesher, folder);
   if (known) {
@@ -238,7 +238,8 @@ CachedBody load_or_reduce(const Recipe& recipe,
     return std::move(*body);
   }
   if (piece.count > 1) mesh = mesh.take_piece(piece);
-  CachedBody made{reduce_for_all(mesh, recipe), false, mesh.record.notices};
+  CachedBody made{reduce_for_all(mesh, recipe), false, mesh.record.notices,
+                  mesh.record.found};
   made.body.content_key = content_key(recipe, mesh.record.content);
   keep_entry(made.body, recipe.mesh.file, folder);
   if (!recipe.stress) made.body.stress.reset();

@@ -57,6 +57,7 @@ struct CachedBody {
   ReducedBody body;
   bool was_cached = false;
   std::vector<std::string> notices;  ///< of its mesh
+  std::vector<std::string> found;    ///< of matrices: a line for each file
 };
 
 /// Loads the body from the folder `cache`, by default default_cache_folder(),

@@ -51,8 +51,9 @@ void add_source_options(const MeshSource& source, Digest& digest) {
   digest.add(source.order);
   digest.add(source.unit);
   digest.add(source.matrices.mass);
-  for (const std::filesystem::path& path : source.matrices.paths)
-    digest.add(std::filesystem::absolute(path).string());
+  for (const auto* paths : {&source.matrices.paths, &source.matrices.recovery})
+    for (const std::filesystem::path& path : *paths)
+      digest.add(std::filesystem::absolute(path).string());
 }
 
 std::filesystem::path read_mesh_file(const std::filesystem::path& record) {

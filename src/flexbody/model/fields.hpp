@@ -80,12 +80,12 @@ constexpr auto fields_of(const InitialDeformation*) {
 
 // Records of locking and of how modes were chosen are for information only.
 constexpr auto fields_of(const ReducedBody*) {
-  return list_fields("reduced body", "name", "clamped", "mass [kg]",
-                     "centre of mass [m]", "size [m]", "integrals", "levers",
-                     "eigenvalues [rad^2/s^2]", "rows", "groups", "interfaces",
-                     "triangles", "contact surfaces", "mesh nodes",
-                     "mesh elements", "mesh boundary nodes", nullptr, nullptr,
-                     nullptr, "initial", "content key", "manifold", "stress");
+  return list_fields(
+      "reduced body", "name", "clamped", "mass [kg]", "centre of mass [m]",
+      "size [m]", "integrals", nullptr, "levers", "eigenvalues [rad^2/s^2]",
+      "rows", "groups", "interfaces", "triangles", "contact surfaces",
+      "mesh nodes", "mesh elements", "mesh boundary nodes", nullptr, nullptr,
+      nullptr, "initial", "content key", "manifold", "stress");
 }
 
 constexpr auto fields_of(const NodeSet*) {

@@ -37,6 +37,9 @@ struct MatrixSource {
   std::vector<std::filesystem::path>
       paths;          ///< a folder, or files; empty: none
   double mass = 0.0;  ///< of the whole model, to check its unit, > 0 [kg]
+  /// Recovery rows of a superelement and their points, unless `paths` have
+  /// them.
+  std::vector<std::filesystem::path> recovery = {};
 };
 
 /// Where the mesh comes from.

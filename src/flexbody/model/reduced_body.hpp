@@ -88,6 +88,13 @@ struct InertialLevers {
   double displacement = 0.0;
 };
 
+/// How well S1 and S2 of a body from matrices are known.
+struct InertiaRecord {
+  std::string gap;  ///< why they are not, and are zero: the body has no level
+                    ///< above `uncoupled`; empty: they are known
+  std::string notice;  ///< that they have a large error; may be empty
+};
+
 /// A flexible body after reduction: all data for dynamics and pictures.
 ///
 /// The body frame B has its origin at the centre of mass and the mesh frame's
@@ -101,6 +108,7 @@ struct ReducedBody {
   Vector3 p_MoBcm_M = Vector3::Zero();  ///< c.m. in the mesh frame [m]
   Vector3 size = Vector3::Zero();       ///< bounding box edges [m]
   InertiaShapeIntegrals integrals;
+  InertiaRecord inertia_record;
   InertialLevers levers;
   VectorX lambda;  ///< m eigenvalues [rad^2/s^2]
   NodeRows rows;

@@ -54,6 +54,10 @@ std::vector<std::string> question_size(const Vector3& size, double mass) {
 
 std::vector<std::string> question_body(const ReducedBody& body) {
   std::vector<std::string> questions = question_size(body.size, body.mass);
+  const InertiaRecord& record = body.inertia_record;
+  if (!record.gap.empty())
+    questions.push_back("only levels rigid and uncoupled: " + record.gap);
+  if (!record.notice.empty()) questions.push_back(record.notice);
   for (const InterfaceTable& table : body.interfaces) {
     if (2 * table.node_count <= body.mesh_boundary_nodes) continue;
     questions.push_back(fmt::format(

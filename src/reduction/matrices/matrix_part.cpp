@@ -181,15 +181,8 @@ void check_digits(const fem::StructuralMatrices& matrices,
       system.source, system.digits, error));
 }
 
-std::string describe_defect(const MatrixPart& part) {
-  return fmt::format(
-      "{}: moments of inertia by the nodes' blocks of the mass matrix differ "
-      "by {:.2g} from those of rigid rotation",
-      part.system.source, part.block_defect);
-}
-
 constexpr double kSilentDefect = 2e-3;
-constexpr double kMostDefect = 0.1;
+constexpr double kMostDefect = 0.1;  // above, S1 and S2 are not taken
 
 }  // namespace
 
@@ -226,22 +219,15 @@ std::shared_ptr<const MatrixPart> make_matrix_part(fem::MatrixModel model,
       std::move(system), X, inertia, std::move(blocks), first.shift});
   part->block_defect =
       calc_block_defect(part->system, part->blocks, part->inertia);
-  if (part->block_defect >= kSilentDefect)
-    part->system.notices.push_back(
-        describe_defect(*part) +
-        "; the coupling of large rotation and deformation has an error of that "
-        "size. More elements or lumped masses reduce it");
+  if (part->block_defect >= kSilentDefect && part->block_defect < kMostDefect &&
+      !part->system.has_recovery)
+    part->system.notices.push_back(fmt::format(
+        "{}: moments of inertia by the nodes' blocks of the mass matrix differ "
+        "by {:.2g} from those of rigid rotation; the coupling of large "
+        "rotation and deformation has an error of that size. More elements or "
+        "lumped masses reduce it",
+        part->system.source, part->block_defect));
   return part;
-}
-
-void require_field_mass(const MatrixPart& part) {
-  if (part.block_defect < kMostDefect) return;
-  throw InputError(
-      describe_defect(part) +
-      ": it is not the mass of a field u = sum N_i u_i + theta_i x d_i. The "
-      "elements are too few, a mass on an averaging connection (RBE3, "
-      "distributing coupling) was condensed into many nodes, or rotation rows "
-      "are not about the axes of the coordinates");
 }
 
 }  // namespace limber::flexbody

@@ -39,8 +39,4 @@ struct MatrixPart {
     fem::MatrixModel model, double mass, double unit,
     const Progress& progress = {});
 
-/// Checks that the blocks of M are those of a field well enough for the inertia
-/// of a body that deforms and rotates. @throws InputError above a defect of 0.1
-void require_field_mass(const MatrixPart& part);
-
 }  // namespace limber::flexbody

@@ -177,6 +177,7 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   system.stiffness_file = model.stiffness.file;
   system.mass_file = model.mass.file;
   system.lift = make_lift(model);
+  system.has_recovery = model.has_recovery;
   system.tags = std::move(model.tags);
   system.x = unit * model.x;
   system.rows = std::move(model.rows);
@@ -194,6 +195,10 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   const VectorX D = make_scales(system.rows, unit);
   scale(D, unit, system.K);
   scale(D, unit, system.M);
+  for (std::size_t i = 0; i < model.moments.size(); ++i) {
+    system.moments[i] = std::move(model.moments[i]);
+    scale(D, unit, system.moments[i]);
+  }
   scale_lift(D, unit, system.lift);
   find_components(system);
   note_rows(system.null, "have neither stiffness nor mass and are left out",

@@ -33,6 +33,9 @@ struct MatrixSystem {
   /// 6 N x rows: displacements and rotations of all nodes from the rows, also
   /// of condensed nodes.
   fem::SparseMatrix lift;
+  /// Second moments of M, xx, yy, zz, xy, xz, yz; empty if not known.
+  std::array<fem::SparseMatrix, 6> moments;
+  bool has_recovery = false;  ///< whether `lift` has recovery rows
   /// Per node: whether its translation, and each rotation, is in the model and
   /// is not a null row.
   std::vector<char> is_moving;
@@ -46,6 +49,7 @@ struct MatrixSystem {
   std::vector<std::string> notices;  ///< what was changed or questionable
 
   [[nodiscard]] Eigen::Index row_count() const { return K.cols(); }
+  [[nodiscard]] bool has_moments() const { return moments[0].rows() > 0; }
   /// Edges of the bounding box of the moving nodes [m].
   [[nodiscard]] Vector3 size() const;
   /// "node 12, z", "row 7".

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "limber/fem/matrices/read_matrices.hpp"
-#include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/reduction/matrices/matrix_body.hpp"
+#include "limber/reduction/matrices/matrix_inertia.hpp"
 #include "limber/reduction/matrices/matrix_interfaces.hpp"
 #include "limber/reduction/modal/selection.hpp"
 #include "limber/reduction/modal/static_modes.hpp"
@@ -106,32 +107,19 @@ void add_interfaces(const MatrixBody& meshed, const StaticModes& modes,
   }
 }
 
-/// Translations of all nodes that have mass by themselves, 3N x m.
-MatrixX take_translations(const MatrixSystem& system, const MatrixX& Phi) {
-  MatrixX taken = MatrixX::Zero(
-      3 * static_cast<Eigen::Index>(system.tags.size()), Phi.cols());
-  for (Eigen::Index i = 0; i < Phi.rows(); ++i) {
-    const fem::MatrixRow& row = system.rows[static_cast<std::size_t>(i)];
-    if (row.node >= 0 && row.component >= 0 && row.component < 3)
-      taken.row(3 * row.node + row.component) = Phi.row(i);
-  }
-  return taken;
-}
-
 }  // namespace
 
 std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,
                                                    const Progress& progress) {
   report(progress, "reading the matrices", 0.0);
-  return make_matrix_part(fem::read_matrices({source.matrices.paths}),
-                          source.matrices.mass,
-                          source.unit > 0.0 ? source.unit : 1.0, progress);
+  return make_matrix_part(
+      fem::read_matrices({source.matrices.paths, source.matrices.recovery}),
+      source.matrices.mass, source.unit > 0.0 ? source.unit : 1.0, progress);
 }
 
 ReducedBody reduce_matrices(const Recipe& recipe,
                             const std::shared_ptr<const MatrixPart>& part,
                             const Progress& progress) {
-  require_field_mass(*part);
   report(progress, "factorising", 0.0);
   const MatrixBody meshed(recipe, part);
   const MatrixSystem& system = part->system;
@@ -151,15 +139,14 @@ ReducedBody reduce_matrices(const Recipe& recipe,
   body.p_MoBcm_M = part->inertia.center;
   body.size = system.size();
   report(progress, "inertia integrals", 0.0);
-  body.integrals = calc_block_integrals(system, part->blocks, part->X, Phi);
+  MatrixInertia inertia =
+      find_matrix_inertia(*part, basis, Phi, fields, meshed.support.is_clamped);
+  body.integrals = std::move(inertia.integrals);
+  body.inertia_record = std::move(inertia.record);
+  body.levers = inertia.levers;
   body.lambda = basis.lambda;
   body.selection = finish_record(chosen, basis);
   body.load_modes = modes.loads;
-  if (!body.clamped)
-    body.levers =
-        calc_inertial_levers(find_scalar_mass(part->blocks),
-                             system.x.colwise() - part->inertia.center,
-                             take_translations(system, Phi), basis.lambda);
   body.mesh_nodes = system.tags.size();
   body.mesh_boundary_nodes = system.tags.size();
   keep_nodes(meshed, recipe, fields, body);

@@ -90,7 +90,10 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
   using dynamics::Fidelity;
   Fidelity level = scene_.scenario.level_of(link.name);
   if (!bands_) {
-    if (level != Fidelity::rigid) level = Fidelity::coupled;
+    if (level != Fidelity::rigid) {
+      level = plan.reduced->inertia_record.gap.empty() ? Fidelity::coupled
+                                                       : Fidelity::uncoupled;
+    }
     return builder_.add_flexible_body(plan.name, plan.reduced, level, {});
   }
   dynamics::ModalDamping damping = link.flexible->damping;

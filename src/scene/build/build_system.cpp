@@ -138,6 +138,8 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                           warnings->end());
   }
   built.notes = scene.scenario.notes;
+  built.notes.insert(built.notes.end(), reductions.found.begin(),
+                     reductions.found.end());
   built.notes.insert(built.notes.end(), assembly.notes().begin(),
                      assembly.notes().end());
   built.piece_checks = reductions.piece_checks;

@@ -212,6 +212,10 @@ class Reduction {
       if (!reported_.insert(notice).second) continue;
       result_.warnings.push_back(fmt::format("link '{}': {}", link, notice));
     }
+    for (const std::string& line : found.found) {
+      if (!reported_.insert("found " + line).second) continue;
+      result_.found.push_back(fmt::format("link '{}': found {}", link, line));
+    }
     (found.was_cached ? result_.cached : result_.reduced) += 1;
     known =
         std::make_shared<const flexbody::ReducedBody>(std::move(found.body));

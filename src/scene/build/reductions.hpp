@@ -29,7 +29,8 @@ struct Reductions {
   std::vector<flexbody::PieceCheck> piece_checks;  ///< of links in pieces
   /// Shortfalls of the bodies' bases, and notices of their meshes.
   std::vector<std::string> warnings;
-  KnownBodies known;  ///< given, reduced and cached ones
+  std::vector<std::string> found;  ///< of matrices: what each file is
+  KnownBodies known;               ///< given, reduced and cached ones
 };
 
 /// Reduced bodies of all flexible links, of each of their pieces: from a file,

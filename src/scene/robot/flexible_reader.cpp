@@ -49,6 +49,11 @@ void read_matrices(XmlElement& element, const std::filesystem::path& folder,
        {"stiffness_file", "mass_file", "nodes_file", "rows_file"}) {
     if (const auto path = element.text(name)) add(*path);
   }
+  for (const char* name :
+       {"recovery_file", "points_file", "recovery_rows_file"}) {
+    if (const auto path = element.text(name))
+      source.matrices.recovery.push_back((folder / *path).lexically_normal());
+  }
   source.file = source.matrices.paths.front();
   if (!source.file.has_filename()) source.file = source.file.parent_path();
   source.matrices.mass = element.required_number("mass", kPositive);

@@ -8,6 +8,7 @@ and 11.3) or with masses lumped at the nodes. Nothing of Limber is used.
 import pathlib
 
 import numpy as np
+from scipy.linalg import eigh
 
 HERE = pathlib.Path(__file__).parent
 E, G, RHO = 200e9, 80e9, 7800.0  # Pa, Pa, kg/m^3
@@ -91,9 +92,61 @@ def curved(count):
     return np.array([[np.sin(a), 1 - np.cos(a), 0.1 * np.sin(2 * a)] for a in angle])
 
 
+def rigid_rows(offset):
+    """Displacement of a point at `offset` of a node from the node's six rows."""
+    x, y, z = offset
+    return np.hstack([np.eye(3), -np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])])
+
+
+def section_points(nodes):
+    """(node, offset) of four points about each end of each element, which have its rotary inertia, too."""
+    points = []
+    for e in range(len(nodes) - 1):
+        x = (nodes[e + 1] - nodes[e]) / np.linalg.norm(nodes[e + 1] - nodes[e])
+        y = np.cross([0.0, 0.0, 1.0], x)
+        y /= np.linalg.norm(y)
+        z = np.cross(x, y)
+        points += [(n, s * np.sqrt(IZ / A) * y + t * np.sqrt(IY / A) * z)
+                   for n in (e, e + 1) for s in (-1, 1) for t in (-1, 1)]
+    return points
+
+
+def write_superelement(name, nodes, modes):
+    """Craig and Bampton's reduction (AIAA J. 6 (1968) 1313) to both ends and `modes` fixed-interface modes; recovery rows of
+    the section points."""
+    K, M = beam(nodes, lumped=True)
+    ends = np.r_[0:6, len(K) - 6:len(K)]
+    inner = np.setdiff1d(np.arange(len(K)), ends)
+    T = np.zeros((len(K), 12 + modes))
+    T[ends, :12] = np.eye(12)
+    T[inner, :12] = -np.linalg.solve(K[np.ix_(inner, inner)], K[np.ix_(inner, ends)])
+    T[inner, 12:] = eigh(K[np.ix_(inner, inner)], M[np.ix_(inner, inner)])[1][:, :modes]
+    folder = HERE / name
+    folder.mkdir(exist_ok=True)
+    write_matrix(folder / "K.mtx", T.T @ K @ T)
+    write_matrix(folder / "M.mtx", T.T @ M @ T)
+    with open(folder / "nodes.csv", "w") as out:
+        out.write("node,x,y,z\n")
+        out.writelines(f"{n},{','.join(f'{c:.17g}' for c in p)}\n" for n, p in ((1, nodes[0]), (2, nodes[-1])))
+    with open(folder / "rows.csv", "w") as out:
+        out.write("row,node,component\n")
+        out.writelines(f"{i + 1},{1 + i // 6},{1 + i % 6}\n" for i in range(12))
+        out.writelines(f"{i + 1},0,0\n" for i in range(12, 12 + modes))
+    points = section_points(nodes)
+    rows = np.vstack([rigid_rows(d) @ T[6 * n:6 * n + 6] for n, d in points])
+    (folder / "recovery").mkdir(exist_ok=True)
+    with open(folder / "recovery/otm.mtx", "w") as out:
+        out.write(f"%%MatrixMarket matrix array real general\n{rows.shape[0]} {rows.shape[1]}\n")
+        out.writelines(f"{v:.15g}\n" for v in rows.T.ravel())
+    with open(folder / "recovery/points.csv", "w") as out:
+        out.write("node,x,y,z\n")
+        out.writelines(f"{101 + i},{','.join(f'{c:.17g}' for c in nodes[n] + d)}\n" for i, (n, d) in enumerate(points))
+
+
 if __name__ == "__main__":
     write("beam", straight(21), lumped=False)
     write("beam_mm", straight(21), lumped=False, unit=1e-3)
     write("beam_lumped", straight(21), lumped=True)
     write("arch", curved(13), lumped=True)
+    write_superelement("superelement", curved(7), 8)
     print(f"mass of a metre {RHO * A:.17g} kg; EI {E * IY:.17g}, {E * IZ:.17g} N m^2")
