@@ -35,7 +35,7 @@ Variable make_text(const char* name, const std::string& text) {
 }  // namespace
 
 struct MatFile::Handle {
-  int memory = memfd_create("linear_model", MFD_CLOEXEC);
+  int memory = memfd_create("mat_file", MFD_CLOEXEC);
   mat_t* mat = nullptr;
 
   Handle() {
@@ -54,7 +54,7 @@ struct MatFile::Handle {
 
   static void check(bool works) {
     if (works) return;
-    throw NumericalError("no memory is left for the file of the linear model");
+    throw NumericalError("no memory is left for the MAT file");
   }
   void write(const Variable& variable) const {
     check(variable != nullptr &&

@@ -10,6 +10,10 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/results/bodies/body_files.hpp"
+#include "limber/results/bodies/matrix_folder.hpp"
 #include "limber/results/xdmf_file.hpp"
 #include "limber/view/gltf.hpp"
 #include "limber/view/moving_surface.hpp"
@@ -21,6 +25,7 @@ struct ExportOptions {
   std::string results;
   std::string out;
   double magnification = 1.0;
+  double damping_ratio = 0.0;
 };
 
 /// The data beside the file would replace the results if both had one name.
@@ -38,7 +43,48 @@ void check_data_file(const std::filesystem::path& file,
       file.string(), data.string()));
 }
 
+void export_body(const ExportOptions& options) {
+  const std::filesystem::path file = options.out;
+  const std::string extension = file.extension().string();
+  if (options.magnification != 1.0)
+    throw InputError("--magnification is for results; a body is at rest");
+  const flexbody::ReducedBody body =
+      flexbody::read_body(options.results, flexbody::StressTables::skipped);
+  const double ratio = options.damping_ratio;
+  if (extension.empty()) {
+    if (ratio != 0.0)
+      throw InputError("--damping-ratio: a folder of matrices has no damping");
+    results::write_matrix_folder(file, body);
+    fmt::print("{}: {} kg\n", file.string(), body.mass);
+    return;
+  }
+  if (extension == ".mat") {
+    write_whole(file, results::make_simscape_file(body, ratio));
+  } else if (extension == ".unv" || extension == ".uff") {
+    write_whole(file,
+                results::make_universal_file(body, ratio, extension == ".uff"));
+  } else if (extension == ".txt") {
+    std::filesystem::path nodes = file;
+    nodes.replace_extension(".yaml");
+    write_whole(file, results::make_flex42_file(body, ratio));
+    write_whole(nodes, results::make_nodes42_file(body));
+    fmt::print("{}\n", nodes.string());
+  } else {
+    throw InputError(fmt::format(
+        "-o {}: a reduced body is written as a folder of matrices (no "
+        "extension), .mat (Simscape), .txt (42), .unv or .uff (universal file)",
+        options.out));
+  }
+  fmt::print("{}\n", file.string());
+}
+
 void export_results(const ExportOptions& options) {
+  if (flexbody::is_body_file(options.results)) {
+    export_body(options);
+    return;
+  }
+  if (options.damping_ratio != 0.0)
+    throw InputError("--damping-ratio is for reduced bodies");
   const std::filesystem::path file = options.out;
   const bool is_xdmf = file.extension() == ".xdmf";
   if (!is_xdmf && file.extension() != ".glb") {
@@ -67,17 +113,28 @@ void export_results(const ExportOptions& options) {
 void add_export(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand(
-      "export", "Write results as an animated glTF 2.0 scene or for ParaView");
+      "export",
+      "Write results as an animated glTF 2.0 scene or for ParaView, or a "
+      "reduced body for other programs");
   command
       ->add_option("results", options->results,
-                   "Folder of a run, or its results.h5")
+                   "Folder of a run, or its results.h5; or a reduced body of "
+                   "'limber reduce'")
       ->required();
-  command->add_option("-o,--out", options->out, "The file, .glb or .xdmf")
+  command
+      ->add_option("-o,--out", options->out,
+                   "The file: of results .glb or .xdmf; of a body .mat "
+                   "(Simscape), .txt (42), .unv or .uff (universal file), or "
+                   "a folder of matrices")
       ->required();
   command
       ->add_option("--magnification", options->magnification,
                    "Of the deformation in .glb (default: 1)")
       ->check(make_positive());
+  command
+      ->add_option("--damping-ratio", options->damping_ratio,
+                   "Of all modes of a reduced body (default: 0)")
+      ->check(CLI::Range(0.0, 1e6));
   command->callback(
       [&action, options] { action = [options] { export_results(*options); }; });
 }

@@ -317,6 +317,13 @@ void write_seal(const std::filesystem::path& file, std::optional<int> version) {
 
 }  // namespace
 
+bool is_body_file(const std::filesystem::path& file) {
+  std::string start(kReducedBodyFormat.size(), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return stream && start == kReducedBodyFormat;
+}
+
 void seal_body_file(const std::filesystem::path& file) {
   write_seal(file, std::nullopt);
 }

@@ -40,6 +40,9 @@ enum class StressTables { needed, skipped };
 [[nodiscard]] ReducedBody read_body(const std::filesystem::path& file,
                                     StressTables stress = StressTables::needed);
 
+/// Whether a file begins as a reduced body; false if it cannot be read.
+[[nodiscard]] bool is_body_file(const std::filesystem::path& file);
+
 /// Updates the seal of a file that another tool has changed on purpose; its
 /// layout remains.
 /// @throws InputError if it cannot be read or written.
