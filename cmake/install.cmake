@@ -1,4 +1,9 @@
-# Installs the libraries, the command, and what find_package(limber) reads.
+# Installs Limber, in components of which scripts/package makes packages:
+#   command   limber, its page, manual pages, completion, examples
+#   mesher    limber-mesh, which Gmsh runs in
+#   verifier  limber-verify, which links Simbody
+#   dev       libraries, headers, and what find_package(limber) reads
+#   python    the Python module (python/CMakeLists.txt)
 include(CMakePackageConfigHelpers)
 
 set(layers common flexbody joints contact dynamics results scene)
@@ -17,72 +22,39 @@ if(LIMBER_REDUCTION)
   list(APPEND layers fem)
   list(APPEND targets limber_gmsh limber_reduction)
   install(TARGETS limber_mesh
-    DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/limber)
+    DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/limber COMPONENT mesher)
 endif()
 if(LIMBER_REFERENCE)
   list(APPEND layers reference)
   install(TARGETS limber_verify
-    DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/limber)
+    DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/limber COMPONENT verifier)
 endif()
 foreach(layer IN LISTS layers)
   list(APPEND targets limber_${layer})
 endforeach()
 
-# The public headers: these, and what they include. All others are details.
+# The public headers (docs/reference/compatibility.md). What they include is installed
+# too, as compilers need it, and is internal.
 set(public_headers
   limber.hpp
   common/errors.hpp
-  common/restitution.hpp
-  common/rotation.hpp
-  contact/law/hertz_law.hpp
-  contact/law/impact_estimate.hpp
-  contact/law/materials.hpp
   contact/make_contact.hpp
-  contact/shapes/skin.hpp
   dynamics/analysis/balanced_truncation.hpp
   dynamics/analysis/equilibrium.hpp
-  dynamics/analysis/level_advice.hpp
   dynamics/analysis/linear_system.hpp
   dynamics/analysis/natural_frequencies.hpp
   dynamics/analysis/steady_spin.hpp
-  dynamics/equations/coupler_motion.hpp
   dynamics/equations/energy.hpp
-  dynamics/equations/joint_state.hpp
-  dynamics/equations/kinematics.hpp
-  dynamics/simulation/run_record.hpp
-  dynamics/system/model_check.hpp
   flexbody/file/cache.hpp
-  flexbody/modal/decision_boundary.hpp
-  flexbody/modal/fourier.hpp
-  flexbody/modal/modal_response.hpp
   joints/pairs/point_springs.hpp
-  results/checkpoint_file.hpp
   results/linear_model_file.hpp
   results/motion_error.hpp
-  results/pictures.hpp
   results/probes_csv.hpp
   results/results_file.hpp
-  results/xdmf.hpp
   scene/build/build_system.hpp
-  scene/build/load_scene.hpp
-  scene/control/linear_scene.hpp
-  scene/control/measured_probe.hpp
-  scene/build/scenario_writer.hpp
-  scene/robot/robot_reader.hpp
-  scene/scenario/scenario_reader.hpp)
+  scene/build/load_scene.hpp)
 if(LIMBER_REDUCTION)
-  list(APPEND public_headers
-    fem/gmsh/gmsh_reader.hpp
-    fem/mesh/mesh_reader.hpp
-    fem/solid/assembly.hpp
-    fem/solid/eigenmodes.hpp
-    fem/solid/static_solid.hpp
-    reduction/departure.hpp
-    reduction/full_body_maker.hpp
-    reduction/mode_study.hpp
-    reduction/operating_states.hpp
-    reduction/power.hpp
-    reduction/reduce.hpp)
+  list(APPEND public_headers reduction/reduce.hpp)
 endif()
 if(LIMBER_REFERENCE)
   list(APPEND public_headers reference/verification.hpp)
@@ -102,23 +74,28 @@ endwhile()
 foreach(header IN LISTS installed)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${header}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber/${folder})
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber/${folder} COMPONENT dev)
 endforeach()
 
 install(FILES ${PROJECT_BINARY_DIR}/include/limber/version.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber)
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber COMPONENT dev)
 
 install(TARGETS ${targets} EXPORT limber
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT command
+    NAMELINK_COMPONENT dev
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS limber DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS limber DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
+# Scenarios name their robots, and robots their meshes, by paths from one to the other.
+install(DIRECTORY examples models meshes
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/limber COMPONENT command
+  PATTERN CMakeLists.txt EXCLUDE PATTERN *.cpp EXCLUDE)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/limber)
 install(EXPORT limber NAMESPACE limber:: FILE limber-targets.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT dev)
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/limber-config.cmake.in
   ${PROJECT_BINARY_DIR}/limber-config.cmake
@@ -129,4 +106,4 @@ write_basic_package_version_file(
 install(FILES
   ${PROJECT_BINARY_DIR}/limber-config.cmake
   ${PROJECT_BINARY_DIR}/limber-config-version.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT dev)

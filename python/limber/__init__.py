@@ -7,6 +7,13 @@
 SI units everywhere; angles in radians.
 """
 
+from importlib.util import find_spec as _find_spec
+
+# pip install limber[reduction] brings a compiled part with meshing and reduction (GPL).
+_reduction = _find_spec("limber_reduction")
+if _reduction is not None:
+    __path__[:0] = _reduction.submodule_search_locations
+
 from . import errors
 from ._core import (
     WORLD, AttachmentIndex, BodyIndex, BodyState, Bushing, Checkpoint, Constant,

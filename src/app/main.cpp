@@ -26,5 +26,6 @@ int main(int argc, char** argv) {
     add_export(app, action);
     add_wobble(app, action);
     add_cache(app, action);
+    add_ship(app, action);
   });
 }

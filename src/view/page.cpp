@@ -9,7 +9,7 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/files/own_file.hpp"
+#include "limber/common/files/own_data.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/view/page_arrays.hpp"
 #include "limber/view/page_data.hpp"
@@ -37,14 +37,9 @@ std::string read_template() {
 }  // namespace
 
 fs::path find_template() {
-  std::error_code unknown;
-  const fs::path folder = find_own_file().parent_path();
-  const std::array<fs::path, 3> places = {
-      folder / kName, folder.parent_path() / "share/limber" / kName,
-      fs::path(LIMBER_DATA_DIR) / kName};
-  for (const fs::path& place : places) {
-    if (fs::is_regular_file(place, unknown)) return place;
-  }
+  fs::path page = find_own_data(kName);
+  if (!page.empty()) return page;
+  const std::array<fs::path, 3> places = list_data_places(kName);
   throw InputError(fmt::format(
       "the page '{}' is not there: looked for {}, {} and {}. The build makes "
       "it with node and npm, and told what it lacked; install them "

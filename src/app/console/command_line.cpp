@@ -98,6 +98,9 @@ int run_command_line(int argc, char** argv, const AddCommands& add_commands) {
   CLI::App app("Simulates arms that bend.", "limber");
   app.set_version_flag("--version", describe_build(),
                        "Print the version and the options of its build");
+  app.add_flag_callback(
+      "--cite", [] { throw CLI::CallForVersion(describe_citation(), 0); },
+      "Print how to cite Limber, for BibTeX");
   app.require_subcommand(1);
   Action action;
   add_commands(app, action);

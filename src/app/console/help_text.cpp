@@ -20,6 +20,18 @@ std::string describe_build() {
          "LIMBER_SANITIZE      " LIMBER_BUILD_SANITIZE;
 }
 
+std::string describe_citation() {
+  return "@software{limber,\n"
+         "  author  = {{The Limber authors}},\n"
+         "  title   = {Limber: simulation of flexible capture arms with "
+         "contact},\n"
+         "  version = {" LIMBER_VERSION
+         "},\n"
+         "  date    = {" LIMBER_RELEASED
+         "},\n"
+         "}";
+}
+
 std::string describe_surroundings() {
   return "Environment:\n"
          "  LIMBER_CACHE    folder of reduced bodies that are kept between "

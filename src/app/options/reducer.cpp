@@ -72,8 +72,9 @@ namespace {
 [[noreturn]] void refuse(const flexbody::MeshSource& mesh) {
   throw InputError(mesh.file.string() +
                    ": this limber was built without meshing and reduction "
-                   "(LIMBER_REDUCTION=OFF); give a saved reduced body by "
-                   "<reduced file=.../>");
+                   "(LIMBER_REDUCTION=OFF). Give a saved reduced body by "
+                   "<reduced file=.../>, or add both: in Python by "
+                   "'pip install limber[reduction]'.");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace limber::app {
 
 void become_verifier(char** argv) {
   become(find_helper("the verifier", "limber-verify",
-                     "Build or install Limber whole."),
+                     "Install it (Debian's package limber-verifier)."),
          argv);
 }
 

@@ -60,7 +60,9 @@ std::filesystem::path find_program() {
         "LIMBER_MESHER names '{}', which is no program that can be run.",
         named));
   }
-  return find_helper("the mesher", kName, "Name it by LIMBER_MESHER.");
+  return find_helper("the mesher", kName,
+                     "Install it (Debian's package limber-mesher), or name it "
+                     "by LIMBER_MESHER.");
 }
 
 /// A geometry gets no environment, so that its mesh cannot depend on one.

@@ -135,10 +135,7 @@ std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
     if (!is_own_file(file)) return std::nullopt;
     ReducedBody body = read_body(file, stress);
     const bool is_enough = body.stress || stress == StressTables::skipped;
-    if (body.content_key == key && is_enough) {
-      note_use(file);
-      return body;
-    }
+    if (body.content_key == key && is_enough) return body;
   } catch (const std::exception&) {
   }
   return std::nullopt;
@@ -214,27 +211,38 @@ std::filesystem::path default_cache_folder() {
 
 CachedBody load_or_reduce(const Recipe& recipe,
                           const std::filesystem::path& cache,
-                          const Reducer& reducer, const Piece& piece) {
+                          const Reducer& reducer, const Piece& piece,
+                          const std::filesystem::path& shipped) {
   const std::filesystem::path folder =
       cache.empty() ? default_cache_folder() : cache;
-  const auto find = [&](const MeshRecord& mesh) -> std::optional<CachedBody> {
+  const auto find_in =
+      [&](const std::filesystem::path& place,
+          const MeshRecord& mesh) -> std::optional<CachedBody> {
     const std::string key =
         content_key(recipe, find_piece_content(mesh.content, piece));
     std::optional<ReducedBody> body = find_entry(
-        folder, key,
+        place, key,
         recipe.stress ? StressTables::needed : StressTables::skipped);
     if (!body) return std::nullopt;
+    if (place == folder) note_use(find_entry_place(place, key));
     // Links of equal shape share an entry; the name is the caller's.
     body->name = recipe.name;
     return CachedBody{std::move(*body), true, mesh.notices, mesh.found};
   };
   const auto known = find_mesh_record(recipe.mesh, reducer.mesher, folder);
   if (known) {
-    if (std::optional<CachedBody> body = find(*known)) return std::move(*body);
+    if (std::optional<CachedBody> body = find_in(folder, *known)) {
+      return std::move(*body);
+    }
+  }
+  if (const auto came = find_shipped_mesh(recipe.mesh, shipped)) {
+    if (std::optional<CachedBody> body = find_in(shipped, *came)) {
+      return std::move(*body);
+    }
   }
   MeshAtHand mesh = reducer.make_mesh(recipe.mesh);
   keep_mesh_record(mesh.record, recipe.mesh, reducer.mesher, folder);
-  if (std::optional<CachedBody> body = find(mesh.record)) {
+  if (std::optional<CachedBody> body = find_in(folder, mesh.record)) {
     return std::move(*body);
   }
   if (piece.count > 1) mesh = mesh.take_piece(piece);

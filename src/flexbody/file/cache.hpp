@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limber/flexbody/file/mesh_index.hpp"
+#include "limber/flexbody/file/shipped_mesh.hpp"
 #include "limber/flexbody/model/piece.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
@@ -63,7 +64,9 @@ struct CachedBody {
 /// Loads the body from the folder `cache`, by default default_cache_folder(),
 /// or reduces it and stores it there. The key contains the mesh's content, so
 /// that equal meshes from different files share an entry. If the folder records
-/// which mesh would result (flexbody/file/mesh_index.hpp), none is made.
+/// which mesh would result (flexbody/file/mesh_index.hpp), none is made; nor if
+/// the body came with Limber, in the folder `shipped`
+/// (flexbody/file/shipped_mesh.hpp).
 /// Entries have stress modes whether the recipe asks for them or not, except
 /// with second-order kinematics; one without is replaced when they are needed.
 ///
@@ -73,9 +76,9 @@ struct CachedBody {
 /// body, and each gets it complete.
 /// @throws what the reducer throws: InputError if the mesh cannot be made; as
 /// default_cache_folder()
-[[nodiscard]] CachedBody load_or_reduce(const Recipe& recipe,
-                                        const std::filesystem::path& cache,
-                                        const Reducer& reducer,
-                                        const Piece& piece = {});
+[[nodiscard]] CachedBody load_or_reduce(
+    const Recipe& recipe, const std::filesystem::path& cache,
+    const Reducer& reducer, const Piece& piece = {},
+    const std::filesystem::path& shipped = find_shipped_bodies());
 
 }  // namespace limber::flexbody
