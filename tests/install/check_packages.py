@@ -56,7 +56,7 @@ def check_libraries(folder):
                 *(folder / "lib/limber").iterdir()]
     for program in programs:
         for line in run_plainly("/usr/bin/ldd", program, folder=folder).splitlines():
-            place = re.search(r"=> (/\S+)", line)
+            place = re.search(r"=> (/.+) \(0x", line)
             is_own = place and place.group(1).startswith(str(folder))
             if place and not is_own and not re.search(
                     r"/(lib(c|m|dl|rt|pthread|resolv|util|anl)|ld-linux[^/]*)\.so", line):
