@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/integrators/energy_conserving.hpp"
+#include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/reduction/matrices/reduce_matrices.hpp"
 #include "places.hpp"
@@ -55,16 +56,23 @@ TEST(MatrixMotion, OfBeamsKeepsMomentumAndEnergy) {
   EXPECT_LT(drift.angular, 1e-12);
 }
 
-dynamics::SystemState move(const BodyPointer& body, Fidelity level) {
+/// @param h below the limits of explicit schemes [s]
+dynamics::SystemState move(const BodyPointer& body, Fidelity level,
+                           dynamics::IntegratorKind kind, double h) {
   const auto free = tumble(body, level, 5.0, 0.1);
   dynamics::SystemState state = free.state;
-  dynamics::EnergyConserving scheme(free.model, {});
-  constexpr double kStep = 1e-4;
-  for (int i = 1; i <= 300; ++i) scheme.step(state, kStep, i * kStep);
+  dynamics::SimulationSettings settings;
+  settings.integrator = kind;
+  settings.step = h;
+  settings.newton_tolerance = 1e-13;
+  settings.newton_iterations = 40;
+  const auto scheme = dynamics::make_integrator(free.model, settings);
+  scheme->start(state, h);
+  for (int i = 1; i <= 300; ++i) scheme->step(state, h, i * h);
   return state;
 }
 
-TEST(MatrixMotion, IsThatOfTheMeshAtEveryLevel) {
+TEST(MatrixMotion, IsThatOfTheMeshAtEveryLevelByEveryIntegrator) {
   const testing::Bar bar{.corner = {0.3, -0.2, 0.1}};
   Recipe recipe = testing::make_recipe(bar);
   recipe.interfaces.clear();
@@ -75,18 +83,22 @@ TEST(MatrixMotion, IsThatOfTheMeshAtEveryLevel) {
   const auto part = make_matrix_part(export_mesh(meshed), bar.mass(), 1.0);
   const auto of_matrices = std::make_shared<const ReducedBody>(
       align_signs(reduce_matrices(recipe, part), *of_mesh));
-  for (const Fidelity level : {Fidelity::rigid, Fidelity::uncoupled,
-                               Fidelity::one_way, Fidelity::coupled}) {
-    const dynamics::SystemState a = move(of_mesh, level);
-    const dynamics::SystemState b = move(of_matrices, level);
-    const dynamics::BodyState& A = a.bodies.front();
-    const dynamics::BodyState& B = b.bodies.front();
-    EXPECT_LT((A.p_WB - B.p_WB).norm(), 1e-10 * A.p_WB.norm());
-    EXPECT_LT((A.w_WB_B - B.w_WB_B).norm(), 1e-10 * A.w_WB_B.norm());
-    ASSERT_EQ(a.eta.size(), b.eta.size());
-    if (a.eta.size() == 0) continue;
-    EXPECT_LT((a.eta - b.eta).norm(), 1e-10 * a.eta.norm());
-    EXPECT_LT((a.etadot - b.etadot).norm(), 1e-10 * a.etadot.norm());
+  const double h = 0.2 / std::sqrt(of_mesh->lambda.maxCoeff());
+  for (const std::string& name : dynamics::integrator_names()) {
+    for (const Fidelity level : {Fidelity::rigid, Fidelity::uncoupled,
+                                 Fidelity::one_way, Fidelity::coupled}) {
+      const auto kind = dynamics::parse_integrator(name);
+      const dynamics::SystemState a = move(of_mesh, level, kind, h);
+      const dynamics::SystemState b = move(of_matrices, level, kind, h);
+      const dynamics::BodyState& A = a.bodies.front();
+      const dynamics::BodyState& B = b.bodies.front();
+      EXPECT_LT((A.p_WB - B.p_WB).norm(), 1e-10 * A.p_WB.norm()) << name;
+      EXPECT_LT((A.w_WB_B - B.w_WB_B).norm(), 1e-10 * A.w_WB_B.norm()) << name;
+      ASSERT_EQ(a.eta.size(), b.eta.size());
+      if (a.eta.size() == 0) continue;
+      EXPECT_LT((a.eta - b.eta).norm(), 1e-10 * a.eta.norm()) << name;
+      EXPECT_LT((a.etadot - b.etadot).norm(), 1e-10 * a.etadot.norm()) << name;
+    }
   }
 }
 
