@@ -6,6 +6,7 @@
 
 #include "limber/common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
+#include "limber/fem/abaqus/solid_deck_reader.hpp"
 #include "limber/fem/matrices/read_matrices.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_wire.hpp"
@@ -109,6 +110,10 @@ void read_mesh_reply(std::string_view bytes) {
   fem::check_connected(mesh);
 }
 
+void read_input_deck(std::string_view bytes) {
+  (void)fem::read_solid_deck(write_input(bytes, "input.inp"));
+}
+
 // Files of a model, each behind a line "=== NAME".
 void read_matrix_files(std::string_view bytes) {
   constexpr std::string_view kMark = "=== ";
@@ -150,6 +155,7 @@ const std::vector<Reader>& all_readers() {
 #ifdef LIMBER_HAS_REDUCTION
       {"mesh_reply", read_mesh_reply},
       {"matrices", read_matrix_files},
+      {"input_deck", read_input_deck},
 #endif
   };
   return readers;

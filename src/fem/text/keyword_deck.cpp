@@ -10,6 +10,7 @@ namespace limber::fem {
 namespace {
 
 constexpr int kMostNestedInputs = 20;
+constexpr int kMostInputs = 10'000;
 
 Keyword parse_keyword(std::string_view line) {
   Keyword keyword;
@@ -36,7 +37,7 @@ std::string unquoted(std::string text) {
 }
 
 void read_file(const std::filesystem::path& file, const DeckReading& reading,
-               int depth) {
+               int depth, int& files) {
   TextScanner scanner(file);
   while (scanner.next_text()) {
     const std::string_view line = trim_blanks(scanner.line());
@@ -50,11 +51,11 @@ void read_file(const std::filesystem::path& file, const DeckReading& reading,
       whole += trim_blanks(scanner.line());
     const Keyword keyword = parse_keyword(whole);
     if (!reading.begin(scanner, keyword) || !keyword.has("INPUT")) continue;
-    if (depth == kMostNestedInputs)
+    if (depth == kMostNestedInputs || ++files > kMostInputs)
       scanner.fail(
-          "files include others too deep. Expected none that includes itself.");
+          "files include too many others. Expected none that includes itself.");
     read_file(file.parent_path() / unquoted(keyword.get("INPUT")), reading,
-              depth + 1);
+              depth + 1, files);
   }
 }
 
@@ -67,7 +68,8 @@ std::string Keyword::get(const std::string& key) const {
 
 void read_keyword_deck(const std::filesystem::path& file,
                        const DeckReading& reading) {
-  read_file(file, reading, 0);
+  int files = 0;
+  read_file(file, reading, 0, files);
 }
 
 }  // namespace limber::fem
