@@ -55,7 +55,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
                                 bool has_derivatives) const {
   if (!has_layers_) return potential_.evaluate(bodies, has_derivatives);
   constexpr int kMost = 100;
-  constexpr double kTolerance = 1e-6;  // far less after it
+  constexpr double kTolerance = 1e-6;  // of f, before its last change
   constexpr double kRise = 1e-3;
   const Matrix3 of_A = turn(bodies.A.R_WB, R_A_);
   const Matrix3 R = of_A + turn(bodies.B.R_WB, R_B_);

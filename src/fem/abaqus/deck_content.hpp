@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
-#include "limber/fem/abaqus/deck_sets.hpp"
 #include "limber/fem/abaqus/solid_type.hpp"
 #include "limber/fem/mesh/solid_deck.hpp"
+#include "limber/fem/text/deck_sets.hpp"
 
 namespace limber::fem {
 

@@ -20,11 +20,6 @@
 namespace limber::fem {
 namespace {
 
-template <typename List>
-bool is_listed(const List& list, std::string_view name) {
-  return std::ranges::find(list, name) != list.end();
-}
-
 /// A face of shells or of plane elements, which may mark a surface.
 std::optional<std::pair<int, int>> find_mark(std::string_view type) {
   constexpr std::array<std::string_view, 6> kStarts = {"CPS", "CPE",  "CAX",
@@ -188,7 +183,7 @@ class SolidDeckReader {
         return other.name == group.name;
       };
       const auto is_of = [&](const std::vector<std::string>& names) {
-        return is_listed(names, group.name);
+        return std::ranges::count(names, group.name) > 0;
       };
       return std::ranges::any_of(deck_.groups, has_name) ||
              std::ranges::any_of(deck_.region_groups, is_of);

@@ -11,6 +11,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/upper_case.hpp"
+#include "limber/fem/text/deck_sets.hpp"
 #include "limber/fem/text/keyword_deck.hpp"
 #include "limber/fem/text/text_scanner.hpp"
 
@@ -18,8 +19,6 @@ namespace limber::fem {
 namespace {
 
 using DeckShape = ModelElement::Shape;
-
-constexpr long kMostDeckNumber = 2'000'000'000;
 
 /// By the beginning of its name; none: it is not drawn.
 std::optional<DeckShape> find_deck_shape(const std::string& type) {
@@ -135,11 +134,7 @@ class InputDeckReader {
   }
 
   long read_number(std::string_view field, const char* what) const {
-    long value = 0;
-    if (!parse_whole(field, value) || value < 1 || value > kMostDeckNumber)
-      scanner_->fail(fmt::format("'{}' is no {}. Expected an integer from 1.",
-                                 echo(field), what));
-    return value;
+    return read_deck_number(*scanner_, field, what);
   }
 
   double read_real(std::string_view field) const {
@@ -196,46 +191,25 @@ class InputDeckReader {
   }
 
   void add_to_set(std::string_view line, const std::string& name) {
-    std::vector<long>& set = is_elset_ ? element_nodes_[name] : sets_[name];
-    const std::vector<std::string_view> fields = split_commas(line);
-    const auto add = [&](long number) {
-      if (!is_elset_) {
-        set.push_back(number);
-        return;
-      }
-      const auto found = nodes_of_element_.find(number);
-      if (found != nodes_of_element_.end())
-        set.insert(set.end(), found->second.begin(), found->second.end());
+    std::map<std::string, std::vector<long>>& all =
+        is_elset_ ? element_nodes_ : sets_;
+    std::vector<long>& set = all[name];
+    const auto append = [&set](std::vector<long> nodes) {
+      set.insert(set.end(), nodes.begin(), nodes.end());
     };
-    if (keyword_.has("GENERATE")) {
-      const long first = read_number(fields[0], "number");
-      const long last =
-          fields.size() > 1 ? read_number(fields[1], "number") : first;
-      const long step = fields.size() > 2 && !fields[2].empty()
-                            ? read_number(fields[2], "step")
-                            : 1;
-      constexpr long kMost = 20'000'000;
-      if (last < first || (last - first) / step > kMost)
-        refuse("generates no set. Expected first, last and step.");
-      for (long number = first; number <= last; number += step) add(number);
-      return;
-    }
-    for (const std::string_view field : fields) {
-      if (field.empty()) continue;
-      long number = 0;
-      if (parse_whole(field, number)) {
-        add(number);
-        continue;
-      }
-      const std::string other = to_upper(std::string(field));
-      const auto& from = is_elset_ ? element_nodes_ : sets_;
-      const auto found = from.find(other);
-      if (found == from.end())
-        refuse("names the set " + echo(other) +
-               ". Expected it before this line.");
-      const std::vector<long> copy = found->second;
-      set.insert(set.end(), copy.begin(), copy.end());
-    }
+    read_set_line(*scanner_, keyword_, line,
+                  {[&](long number) {
+                     if (!is_elset_) return set.push_back(number);
+                     const auto found = nodes_of_element_.find(number);
+                     if (found != nodes_of_element_.end())
+                       append(found->second);
+                   },
+                   [&](const std::string& other) {
+                     const auto found = all.find(other);
+                     if (found == all.end()) return false;
+                     append(found->second);
+                     return true;
+                   }});
   }
 
   void add_nodes_of(const std::string& element_set, std::vector<long>& set) {

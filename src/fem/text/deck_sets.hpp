@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limber/fem/text/keyword_deck.hpp"
+
+namespace limber::fem {
+
+/// @throws InputError with file and line unless it is an integer from 1
+[[nodiscard]] long read_deck_number(const TextScanner& at,
+                                    std::string_view field, const char* what);
+
+/// What is done with the entries of a set.
+struct SetReading {
+  std::function<void(long)> add_number;
+  /// @param name in upper case @returns false if there is no such set
+  std::function<bool(const std::string& name)> add_set;
+};
+
+/// Reads a data line of *NSET or *ELSET: numbers, names of sets before it, or
+/// with GENERATE first, last and step.
+/// @throws InputError with file and line
+void read_set_line(const TextScanner& at, const Keyword& keyword,
+                   std::string_view line, const SetReading& reading);
+
+/// Sets of numbers of nodes or of elements, by their names in upper case.
+class DeckSets {
+ public:
+  /// Adds a data line. @throws InputError as read_set_line
+  void add_line(const TextScanner& at, const Keyword& keyword,
+                const std::string& name, std::string_view line);
+  void add(const std::string& name, long number) {
+    if (!name.empty()) sets_[name].push_back(number);
+  }
+
+  [[nodiscard]] const std::map<std::string, std::vector<long>>& all() const {
+    return sets_;
+  }
+  /// Empty without it.
+  [[nodiscard]] std::vector<long> get(const std::string& name) const;
+
+ private:
+  std::map<std::string, std::vector<long>> sets_;
+};
+
+}  // namespace limber::fem
