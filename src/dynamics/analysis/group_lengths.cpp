@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -31,16 +32,10 @@ GroupLengths::GroupLengths(const SystemModel& model, const SystemState& start)
 
 void GroupLengths::include_body(const SystemModel& model, BodyIndex b,
                                 std::size_t group) {
-  const BodyModel& body = model.bodies[index(b)];
-  const auto mark = [&](Eigen::Index first, Eigen::Index count) {
-    std::fill_n(group_of_row_.begin() + first, count,
+  for (const UnknownRange& range : list_unknowns(model, index(b))) {
+    std::fill_n(group_of_row_.begin() + range.row, range.size,
                 static_cast<Eigen::Index>(group));
-  };
-  mark(body.row, 6 + body.modes);
-  if (body.full < 0) return;
-  const FullModel& full =
-      model.full_bodies[static_cast<std::size_t>(body.full)];
-  mark(first_node_row(model) + full.first, full.dofs());
+  }
 }
 
 VectorX GroupLengths::sum_squares(const VectorX& weighted) const {

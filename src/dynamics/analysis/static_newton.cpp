@@ -6,6 +6,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/matrix_free.hpp"
@@ -104,18 +105,14 @@ BodyIndex StaticNewton::most_moved() const {
   BodyIndex most(0);
   double largest = -1.0;
   for (BodyIndex b(0); b < std::ssize(model_.bodies); ++b) {
-    const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
-    const Eigen::Index row = body.row;
     const VectorX moved = correction_.cwiseProduct(lengths_.weights());
-    double squared = moved.segment(row, 6 + body.modes).squaredNorm();
-    if (body.full >= 0) {
-      const auto& full =
-          model_.full_bodies[static_cast<std::size_t>(body.full)];
-      squared += moved.segment(first_node_row(model_) + full.first, full.dofs())
-                     .squaredNorm();
+    double squared = 0.0;
+    for (const UnknownRange& range : list_unknowns(model_, index(b))) {
+      squared += moved.segment(range.row, range.size).squaredNorm();
     }
-    if (squared / body.mass > largest) {
-      largest = squared / body.mass;
+    const double mass = model_.bodies[index(b)].mass;
+    if (squared / mass > largest) {
+      largest = squared / mass;
       most = b;
     }
   }

@@ -230,6 +230,20 @@ void set_received(const SystemModel& model, const SystemState& state,
 
 }  // namespace
 
+void clear_forces(SystemTerms& terms) {
+  for (BodyTerms& body : terms.bodies) {
+    body.force_W.setZero();
+    body.moment_B.setZero();
+    body.modal_force.setZero();
+    body.bias_r.setZero();
+    body.bias_e.setZero();
+  }
+  for (FullTerms& full : terms.full) {
+    full.force.setZero();
+    full.internal.setZero();
+  }
+}
+
 SystemTerms make_terms(const SystemModel& model) {
   SystemTerms terms;
   for (const BodyModel& body : model.bodies) {

@@ -21,6 +21,9 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
 void calc_terms(const SystemModel& model, const SystemState& state, Side side,
                 SystemTerms& terms, WrenchSource source = WrenchSource::law);
 
+/// Sets all forces and bias terms to zero.
+void clear_forces(SystemTerms& terms);
+
 /// Solves each body's 6 + m equations for its accelerations.
 /// @param accelerations of all unknowns (unknowns.hpp)
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,

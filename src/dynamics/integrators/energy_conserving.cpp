@@ -70,7 +70,7 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       courses_{Course{turns_, 0.0}, Course{turns_, 0.0}},
       left_(make_state(model)),
       progress_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty());
+  LIMBER_EXPECT(model.nodal_count == 0);
 }
 
 // Predicts mean velocities that change as between the last two steps: those of

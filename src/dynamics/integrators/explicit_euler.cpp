@@ -15,7 +15,7 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
       next_(make_state(model)),
       flows_(make_flows(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty());
+  LIMBER_EXPECT(model.nodal_count == 0);
 }
 
 StepResult ExplicitEuler::step(SystemState& state, double h, double end) {

@@ -9,9 +9,9 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/nodal_rotation.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
-#include "limber/dynamics/integrators/full_turn.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_failure.hpp"
@@ -79,7 +79,7 @@ bool GeneralizedAlpha::damp(UnresolvedMotion motion) {
 
 void GeneralizedAlpha::refresh() {
   factored_step_ = 0.0;
-  renews_full_ = true;
+  renews_all_ = true;
   trend_step_ = 0.0;
   plan_.refresh();
 }
@@ -135,14 +135,14 @@ void GeneralizedAlpha::set_coefficients(double h) {
   maxwell_.set_step(h, terms_);
 }
 
-void GeneralizedAlpha::refactor(bool renews_full) {
+void GeneralizedAlpha::refactor(bool renews_all) {
   matrix_.factor(model_, next_, terms_, motion_, coefficients_,
-                 renews_full || renews_full_);
-  renews_full_ = false;
+                 renews_all || renews_all_);
+  renews_all_ = false;
 }
 
 // Factors for the current iterate. Unreduced bodies keep their stiffness and
-// renew only its frame, unless `renews_full`.
+// renew only its frame, unless `renews_all`.
 void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
   try {
     refactor(result.factorizations > 0);
@@ -216,7 +216,7 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
 void GeneralizedAlpha::apply_increments(double h, double taken) {
   x_ *= taken;
   add_to_applied(matrix_.wrench_increments(), terms_, taken);
-  turn_corrections(model_, next_, x_);
+  rotate_corrections(model_, next_, x_);
   for (const BodyModel& body : model_.bodies) {
     const Vector3 turn = rotation_rows(body, motion_);
     const Vector3 x = rotation_rows(body, x_);
@@ -248,7 +248,7 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
       (nodal_rows(model_, vdot_) - p_.am * nodal_rows(model_, a_)) /
       (1.0 - p_.am);
   const bool turns =
-      predict_turns(model_, from, vdot_, a_, {h, p_.lag, p_.beta}, a_next_);
+      predict_rotations(model_, from, vdot_, a_, {h, p_.lag, p_.beta}, a_next_);
   get_velocities(model_, from, v_);
   copy_step_constants(from, next_);
   advance(from, h, end);
@@ -300,7 +300,7 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
                                 bool keeps, Corrections corrections,
                                 StepResult& result) {
   bool exactly = corrections != Corrections::by_factors;
-  const bool has_trend = trend_step_ > 0.0 && model_.full_bodies.empty();
+  const bool has_trend = trend_step_ > 0.0 && model_.nodal_count == 0;
   const bool turns = predict(from, h, end);
   progress_.start(next_, motion_);
   course_.clear();

@@ -86,7 +86,7 @@ class GeneralizedAlpha final : public Integrator {
                         bool keeps, StepResult& result);
   void converge(const SystemState& from, double h, double end, bool keeps,
                 Corrections corrections, StepResult& result);
-  void refactor(bool renews_full = false);
+  void refactor(bool renews_all = false);
   void renew_factors(double h, double end, StepResult& result);
   [[noreturn]] void fail(const SystemState& from, double h,
                          const char* what) const;
@@ -100,7 +100,7 @@ class GeneralizedAlpha final : public Integrator {
   ExactCorrection exact_;
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the current factors, 0: none [s]
-  bool renews_full_ = false;    // also factors of unreduced bodies
+  bool renews_all_ = false;     // also factors of unreduced bodies
   double trend_step_ = 0.0;  // vdot_next_ is from this long before, 0: not [s]
   StepWork work_;
   MaxwellMotion maxwell_;

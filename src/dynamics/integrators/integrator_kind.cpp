@@ -16,25 +16,25 @@ IntegratorTraits make_traits(IntegratorKind kind) {
               .is_implicit = true,
               .is_adaptive = true,
               .has_spectral_radius = true,
-              .takes_full_bodies = true,
+              .takes_nodes = true,
               .leaves_end_terms = true};
     case IntegratorKind::runge_kutta_4:
       return {.name = "runge-kutta-4",
               .order = 4,
-              .takes_full_bodies = true,
+              .takes_nodes = true,
               .limit = StepLimit::growth};
     case IntegratorKind::explicit_euler:
       return {.name = "explicit-euler", .order = 1, .takes_exact_modes = false};
     case IntegratorKind::central_differences:
       return {.name = "central-differences",
-              .takes_full_bodies = true,
+              .takes_nodes = true,
               .leaves_end_terms = true,
               .limit = StepLimit::stability};
     case IntegratorKind::implicit_euler:
       return {.name = "implicit-euler",
               .order = 1,
               .is_implicit = true,
-              .takes_full_bodies = true,
+              .takes_nodes = true,
               .leaves_end_terms = true};
     case IntegratorKind::energy_conserving:
       return {.name = "energy-conserving",

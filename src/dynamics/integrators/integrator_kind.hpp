@@ -34,7 +34,7 @@ struct IntegratorTraits {
   /// Estimates each step's error, and so can meet a tolerance.
   bool is_adaptive = false;
   bool has_spectral_radius = false;  ///< reads SimulationSettings::rho_inf
-  bool takes_full_bodies = false;    ///< integrates bodies at level `full`
+  bool takes_nodes = false;  ///< integrates bodies whose unknowns are nodes
   /// Modes driven by known loads only may be solved in closed form.
   bool takes_exact_modes = true;
   /// terms() belong to the end of the last step.

@@ -32,7 +32,7 @@ bool conserves_impacts(const SystemModel& model,
                        const SimulationSettings& settings) {
   return traits_of(settings.integrator).is_implicit &&
          settings.integrator != IntegratorKind::energy_conserving &&
-         settings.tolerance == 0.0 && model.full_bodies.empty() &&
+         settings.tolerance == 0.0 && model.nodal_count == 0 &&
          std::any_of(model.pairs.begin(), model.pairs.end(),
                      [](const Pair& pair) { return pair.law->touching(); });
 }

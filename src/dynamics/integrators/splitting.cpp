@@ -16,7 +16,7 @@ Splitting::Splitting(const SystemModel& model)
       middle_(make_state(model)),
       flows_(make_flows(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty());
+  LIMBER_EXPECT(model.nodal_count == 0);
 }
 
 void Splitting::drift(SystemState& state) {

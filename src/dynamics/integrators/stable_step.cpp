@@ -7,7 +7,7 @@
 #include <random>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
@@ -18,23 +18,13 @@ namespace {
 // A change of positions or of velocities, or of the accelerations by it.
 using Change = VectorX;
 
+// Visits numbers that have the same weight in the norm.
 template <typename Visit>
 void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    if (!body.has_rigid_motion()) continue;
-    const double mass = std::sqrt(body.mass);
-    const double inertia = std::sqrt(body.J0.trace() / 3.0);
-    visit(x.data() + body.row, 3, mass);
-    visit(x.data() + body.row + 3, 3, inertia);
-  }
-  for (const BodyModel& body : model.bodies) {
-    visit(x.data() + body.row + 6, body.modes, 1.0);
-  }
-  for (const FullModel& full : model.full_bodies) {
-    const double mass = full.mesh->node_mass.sum();
-    visit(x.data() + first_node_row(model) + full.first, full.dofs(),
-          std::sqrt(3.0 * mass / static_cast<double>(full.dofs())));
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      visit(x.data() + range.row, range.size, std::sqrt(range.mass));
+    }
   }
 }
 
@@ -55,16 +45,9 @@ void scale(const SystemModel& model, Change& x, double factor) {
 
 // Square of a body's part of the mass-weighted norm.
 double measure_part(const SystemModel& model, const Change& x, std::size_t b) {
-  const BodyModel& body = model.bodies[b];
-  double part = body.mass * translation_rows(body, x).squaredNorm() +
-                body.J0.trace() / 3.0 * rotation_rows(body, x).squaredNorm() +
-                mode_rows(body, x).squaredNorm();
-  if (body.full >= 0) {
-    const FullModel& full =
-        model.full_bodies[static_cast<std::size_t>(body.full)];
-    part += full.mesh->node_mass.sum() *
-            nodal_rows(model, full, x).squaredNorm() /
-            static_cast<double>(full.dofs());
+  double part = 0.0;
+  for (const UnknownRange& range : list_unknowns(model, b)) {
+    part += range.mass * x.segment(range.row, range.size).squaredNorm();
   }
   return part;
 }

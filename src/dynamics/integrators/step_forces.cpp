@@ -254,14 +254,15 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   t.modal_force.setZero();
   terms.products[b].force.setZero();
   t.dissipated += find_maxwell_loss(body, step.middle.maxwell);
+  const bool has_weight = body.P.cols() > 0;  // in its modes
   for (int k = 0; k < body.modes; ++k) {
     const double rate = step.middle.etadot[body.offset + k];
     t.dissipated += body.damping[k] * rate * rate;
-    if (!body.clamped) continue;
+    if (!has_weight) continue;
     const Vector3 P_W = t.R_WB * body.P.col(k);
     add_to_mode(step, b, k, P_W.dot(gravity_W), terms);
   }
-  if (body.clamped) {
+  if (has_weight) {
     const Vector3 gravity_B = t.R_WB.transpose() * gravity_W;
     flexbody::for_each_product(
         paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {

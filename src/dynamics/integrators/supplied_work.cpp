@@ -37,7 +37,7 @@ void SuppliedWork::list_loads() {
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
     const bool is_undeformed =
         body.modes > 0 && body.fidelity < Fidelity::coupled;
-    if (is_undeformed || body.full >= 0) continue;
+    if (is_undeformed || model_.attachments[at].nodal) continue;
     if (load.in_world && !load.force.isZero(0.0)) loads_.push_back(i);
     if (load.moment.isZero(0.0)) continue;
     if (load.in_world || body.modes == 0) moments_.push_back(i);

@@ -58,8 +58,8 @@ ContactStartObserver::ContactStartObserver(const SystemModel& model)
                       .law = law,
                       .scratch = make_response(model, model.pairs[p]),
                       .motion = PairMotion(model, model.pairs[p])});
-    travel_.include(model.pairs[p].body_A, law->find_reach_A());
-    travel_.include(model.pairs[p].body_B, law->find_reach_B());
+    travel_.include(model, model.pairs[p].body_A, law->find_reach_A());
+    travel_.include(model, model.pairs[p].body_B, law->find_reach_B());
   }
   first_speeds_.resize(model.bodies.size());
   ways_.resize(model.bodies.size());

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "limber/dynamics/system/body_model.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -36,7 +38,7 @@ EnergyGroups::EnergyGroups(const SystemModel& model, bool lags)
       sums_(at(rows_.count)) {
   std::iota(parents_.begin(), parents_.end(), Eigen::Index(0));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    groups_[b].is_held = model.bodies[b].clamped;
+    groups_[b].is_held = model.bodies[b].is_held();
   }
   Eigen::Index row = rows_.couplers;
   for (const Coupler& coupler : model.couplers) {
@@ -271,9 +273,8 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
     drift.share = group.share;
     if (group.share == 0.0) continue;
     drift.place = name_energy_row(model_, group.worst);
-    drift.is_one_way =
-        group.worst < rows_.couplers &&
-        model_.bodies[at(group.worst)].fidelity == Fidelity::one_way;
+    drift.is_one_way = group.worst < rows_.couplers &&
+                       is_one_way(model_.bodies[at(group.worst)]);
   }
   return drifts;
 }

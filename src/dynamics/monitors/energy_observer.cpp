@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/equations/full_terms.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 
 namespace limber::dynamics {
@@ -45,48 +45,26 @@ EnergyObserver::EnergyObserver(const SystemModel& model,
       rows_(model),
       groups_(model, integrator == IntegratorKind::explicit_euler),
       accounts_(static_cast<std::size_t>(rows_.count)),
-      next_(accounts_) {
-  for (const FullModel& full : model.full_bodies) {
-    scratch_.emplace_back(Matrix3X::Zero(3, full.mesh->node_count()));
-  }
+      next_(accounts_),
+      scratch_(model.bodies.size()) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const bool is_free = body.has_rigid_motion() || body.full >= 0;
-    accounts_[b].mass = is_free ? body.mass : 0.0;
+    const UnknownRanges unknowns = list_unknowns(model, b);
+    const bool is_free = unknowns.begin() != unknowns.end() &&
+                         unknowns.begin()->kind != UnknownKind::modes;
+    accounts_[b].mass = is_free ? model.bodies[b].mass : 0.0;
   }
-}
-
-void EnergyObserver::evaluate_full(std::size_t b, const SystemState& state,
-                                   const SystemTerms& terms) {
-  const auto f = static_cast<std::size_t>(model_.bodies[b].full);
-  const FullTerms& t = terms.full[f];
-  const ConstNodes udot = nodes_of(model_.full_bodies[f], state.udot_H);
-  t.solver->multiply_mass(udot, scratch_[f]);
-  EnergyAccount& row = next_[b];
-  row.kinetic = 0.5 * scratch_[f].cwiseProduct(udot).sum();
-  row.power = terms.bodies[b].received;
-  const Matrix3& R_WH = state.X_WH[f].R;
-  row.momentum = R_WH * scratch_[f].rowwise().sum();
-  row.force = R_WH * t.force.rowwise().sum();
 }
 
 void EnergyObserver::evaluate_body(std::size_t b, const SystemState& state,
                                    const SystemTerms& terms) {
-  const BodyModel& body = model_.bodies[b];
-  if (body.full >= 0) return evaluate_full(b, state, terms);
-  const BodyState& rigid = state.bodies[b];
-  const BodyTerms& t = terms.bodies[b];
-  const auto etadot = state.etadot.segment(body.offset, body.modes);
+  const BodyMomentum now = visit_body(model_, b, [&](const auto& own) {
+    return own.find_momentum(state, terms, scratch_[b]);
+  });
   EnergyAccount& row = next_[b];
-  row.kinetic = 0.5 * etadot.squaredNorm();
-  row.power = t.received;
-  if (body.has_rigid_motion()) {
-    const Vector3& w = rigid.w_WB_B;
-    row.momentum = body.mass * rigid.v_WB_W;
-    row.force = t.force_W;
-    row.kinetic += 0.5 * row.momentum.dot(rigid.v_WB_W) +
-                   w.dot(0.5 * (t.J * w) + t.H * etadot);
-  }
+  row.kinetic = now.kinetic;
+  row.power = terms.bodies[b].received;
+  row.momentum = now.momentum;
+  row.force = now.force;
 }
 
 EnergyObserver::Sums EnergyObserver::evaluate(const SystemState& state,

@@ -91,8 +91,6 @@ class EnergyObserver {
   Sums evaluate(const SystemState& state, const SystemTerms& terms);
   void evaluate_body(std::size_t b, const SystemState& state,
                      const SystemTerms& terms);
-  void evaluate_full(std::size_t b, const SystemState& state,
-                     const SystemTerms& terms);
   void set_noise(const SystemTerms& terms);
   void set_jitter(const SystemState& state, double h);
   // Sets next_ to the accounts after a step with what was evaluated.
@@ -110,7 +108,7 @@ class EnergyObserver {
   EnergyGroups groups_;
   std::vector<EnergyAccount> accounts_;
   std::vector<EnergyAccount> next_;  // or those of the step before
-  std::vector<Matrix3X> scratch_;    // of unreduced bodies
+  std::vector<Matrix3X> scratch_;    // one a body, of BodyKind
   double time_ = 0.0;                // of accounts_ [s]
   double steps_ = 0.0;
   EnergyRecord record_;

@@ -51,7 +51,8 @@ VectorX find_shares(const flexbody::ModalElasticity& elasticity,
 
 // [rad^2/s^2]; beyond this square of a spin rotation may soften a body.
 double find_harmless_square(const BodyModel& body) {
-  if (body.modes == 0 || body.clamped || body.fidelity != Fidelity::coupled) {
+  if (body.modes == 0 || body.is_held() || !is_coupled(body.fidelity) ||
+      is_quadratic(body)) {
     return std::numeric_limits<double>::infinity();
   }
   const double lowest = flexbody::lowest_rest_stiffness(body.elasticity);
@@ -81,7 +82,7 @@ Vector6 find_unit_shares(const BodyModel& body) {
 
 // The theory that holds for small deformations only.
 std::string name_limit(const BodyModel& body) {
-  if (body.fidelity == Fidelity::nonlinear) {
+  if (is_quadratic(body)) {
     return "motion of second order in a body's modes";
   }
   return flexbody::is_linear(body.elasticity)
@@ -138,7 +139,7 @@ std::optional<std::string> describe_softening(const BodyModel& body,
 std::optional<std::string> describe_large_turn(const SystemModel& model,
                                                const SystemState& state,
                                                std::size_t body) {
-  if (model.bodies[body].fidelity != Fidelity::nonlinear) return std::nullopt;
+  if (!is_quadratic(model.bodies[body])) return std::nullopt;
   const double turn = find_turn(model, state, body);
   if (!(turn > kLargeTurn)) return std::nullopt;
   return fmt::format(
@@ -178,7 +179,7 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
   if (!may_exceed(state, body, share * body.size)) return;
   const BodyModel& model = model_.bodies[body.index];
   const double deformation = body.displacement;
-  const bool is_nonlinear = model.fidelity == Fidelity::nonlinear;
+  const bool is_nonlinear = is_quadratic(model);
   const double turn = is_nonlinear ? find_turn(model_, state, body.index) : 0.0;
   if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
   const Eigen::Index mode = find_largest_mode(body.measure, body.eta);

@@ -14,7 +14,7 @@ constexpr long kStride = 8;
 bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
   const IntegratorTraits& traits = traits_of(integrator);
   return traits.leaves_end_terms &&
-         (traits.is_implicit || model.full_bodies.empty());
+         (traits.is_implicit || model.nodal_count == 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/surface_reach.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -23,7 +24,8 @@ class TravelBound {
   explicit TravelBound(const SystemModel& model);
 
   /// Includes a body's points. @param body kWorld has no effect
-  void include(BodyIndex body, const joints::TouchReach& reach);
+  void include(const SystemModel& model, BodyIndex body,
+               const joints::TouchReach& points);
 
   /// Speeds of all bodies at a state [m/s].
   void find_speeds(const SystemModel& model, const SystemState& state,
@@ -36,13 +38,8 @@ class TravelBound {
   [[nodiscard]] double find_way(BodyIndex A, BodyIndex B) const;
 
  private:
-  struct Reach {
-    bool is_member = false;
-    double extent = 0.0;  // [m]
-    VectorX modes;        // [kg^-1/2]
-  };
-  std::vector<Reach> reaches_;  // of each body
-  std::vector<double> ways_;    // [m]
+  std::vector<SurfaceReach> reaches_;  // of each body
+  std::vector<double> ways_;           // [m]
 };
 
 /// A body's entry; 0 of the world.

@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/IterativeSolvers>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/matrix_free.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -17,18 +18,6 @@ namespace {
 constexpr double kLinear = 1e-6;
 // More would cost more than shortening the step.
 constexpr Eigen::Index kKrylovVectors = 60;
-
-// Calls `visit` with each body's index, and first row and number of its rows.
-template <typename Visit>
-void for_each_part(const SystemModel& model, Visit visit) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    visit(b, body.row, 6 + body.modes);
-    if (body.full < 0) continue;
-    const FullModel& full = model.full_bodies[index(body.full)];
-    visit(b, first_node_row(model) + full.first, full.dofs());
-  }
-}
 
 }  // namespace
 
@@ -48,14 +37,19 @@ VectorX ExactCorrection::find_weights(const SystemTerms& terms,
     return squares[static_cast<Eigen::Index>(groups_.find_joined(b))];
   };
   VectorX weights = lengths_;
-  for_each_part(model_, [&](std::size_t b, Eigen::Index row, Eigen::Index n) {
-    square_of(b) += increments.segment(row, n)
-                        .cwiseProduct(lengths_.segment(row, n))
-                        .squaredNorm();
-  });
-  for_each_part(model_, [&](std::size_t b, Eigen::Index row, Eigen::Index n) {
-    if (square_of(b) > 0.0) weights.segment(row, n) /= std::sqrt(square_of(b));
-  });
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    for (const UnknownRange& range : list_unknowns(model_, b)) {
+      square_of(b) += increments.segment(range.row, range.size)
+                          .cwiseProduct(lengths_.segment(range.row, range.size))
+                          .squaredNorm();
+    }
+  }
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (!(square_of(b) > 0.0)) continue;
+    for (const UnknownRange& range : list_unknowns(model_, b)) {
+      weights.segment(range.row, range.size) /= std::sqrt(square_of(b));
+    }
+  }
   return weights;
 }
 

@@ -7,25 +7,13 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-/// Force and moment about a point.
-struct Wrench {
-  Vector3 point;
-  Vector3 force = Vector3::Zero();
-  Vector3 moment = Vector3::Zero();
-
-  void add(const Vector3& p, const Vector3& f, const Vector3& m) {
-    force += f;
-    moment += (p - point).cross(f) + m;
-  }
-};
 
 /// The bodies of a free group, and where they are.
 struct Group {
@@ -82,30 +70,11 @@ Magnitudes find_magnitudes(const SystemModel& model, const SystemState& state,
     const BodyModel& body = model.bodies[i];
     sum.force += body.mass * model.gravity_W.norm() +
                  std::sqrt(body.mass) * terms.bodies[i].modal_force.norm();
-    if (body.full < 0) continue;
-    sum.force += terms.full[static_cast<std::size_t>(body.full)].force.norm();
+    sum.force += visit_body(
+        model, i, [&](const auto& own) { return own.sum_nodal_forces(terms); });
   }
   sum.moment += group.extent.reach * sum.force;
   return sum;
-}
-
-void add_body(const SystemModel& model, const SystemState& state,
-              const SystemTerms& terms, BodyIndex b, Wrench& sum) {
-  const auto i = static_cast<std::size_t>(b);
-  const BodyModel& body = model.bodies[i];
-  if (body.full < 0) {
-    const BodyTerms& t = terms.bodies[i];
-    sum.add(state.bodies[i].p_WB, t.force_W, t.R_WB * t.moment_B);
-    return;
-  }
-  const auto f = static_cast<std::size_t>(body.full);
-  const FullModel& full = model.full_bodies[f];
-  const ConstNodes u_H = nodes_of(full, state.u_H);
-  const Matrix3X force = terms.full[f].force - terms.full[f].internal;
-  for (Eigen::Index n = 0; n < force.cols(); ++n) {
-    const Vector3 p = state.X_WH[f] * (full.mesh->x_B.col(n) + u_H.col(n));
-    sum.add(p, state.X_WH[f].R * force.col(n), Vector3::Zero());
-  }
 }
 
 std::string name_group(const SystemModel& model,
@@ -146,18 +115,9 @@ SystemState stop(const SystemState& state) {
 VectorX find_length_weights(const SystemModel& model) {
   VectorX weights = make_unknowns(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = model.bodies[b].row;
-    weights.segment<3>(row).setConstant(std::sqrt(body.mass));
-    weights.segment<3>(row + 3).setConstant(std::sqrt(body.mass) *
-                                            radius_of_gyration(body));
-    weights.segment(row + 6, body.modes).setOnes();
-    if (body.full < 0) continue;
-    const FullModel& full =
-        model.full_bodies[static_cast<std::size_t>(body.full)];
-    weights.segment(first_node_row(model) + full.first, full.dofs())
-        .setConstant(
-            std::sqrt(3.0 * body.mass / static_cast<double>(full.dofs())));
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      weights.segment(range.row, range.size).setConstant(std::sqrt(range.mass));
+    }
   }
   return weights;
 }
@@ -168,8 +128,11 @@ void check_balance(const SystemModel& model, const SystemState& state,
   for (const std::vector<BodyIndex>& bodies : find_free_groups(model)) {
     const Group group = describe_group(model, state, bodies);
     const Magnitudes all = find_magnitudes(model, state, terms, group);
-    Wrench sum{group.extent.centre};
-    for (const BodyIndex b : bodies) add_body(model, state, terms, b, sum);
+    WrenchSum sum{group.extent.centre};
+    for (const BodyIndex b : bodies) {
+      visit_body(model, static_cast<std::size_t>(b),
+                 [&](const auto& own) { own.add_forces(state, terms, sum); });
+    }
     const std::string who = name_group(model, bodies);
     if (sum.force.norm() > kBalanced * all.force) {
       refuse(who, "force", sum.force, "N", "along");

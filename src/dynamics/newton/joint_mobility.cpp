@@ -13,7 +13,7 @@ namespace {
 
 std::vector<char> find_joined(const SystemModel& model) {
   std::vector<char> is_joined(model.pairs.size(), 0);
-  if (!model.full_bodies.empty()) return is_joined;
+  if (model.nodal_count > 0) return is_joined;
   std::vector<char> has_joint(model.bodies.size(), 0);
   const auto mark = [&](BodyIndex b) {
     if (b != kWorld) has_joint[index(b)] = 1;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/newton/link_rows.hpp"
 
-#include "limber/dynamics/equations/nodal_jacobian.hpp"
-
 namespace limber::dynamics {
 
 void reflect_rows(const Vector3& p, Matrix6X& rows) {
@@ -32,17 +30,6 @@ Matrix6 find_link_stiffness(const SystemTerms& terms, std::size_t link,
   Matrix6 K = Matrix6::Zero();
   K(0, 0) = r.stiffness + velocity * r.damping;
   return K;
-}
-
-MatrixX make_body_columns(const Attachment& attachment,
-                          const AttachmentMotion& motion, const Matrix3& R_HB,
-                          Eigen::Index dofs) {
-  Matrix6X G(6, dofs);
-  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_HB.transpose(), G);
-  for (Eigen::Index i = 0; i < dofs; i += 3) {
-    G.middleCols<3>(i) = (G.middleCols<3>(i) * R_HB).eval();
-  }
-  return G.transpose();
 }
 
 }  // namespace limber::dynamics

@@ -19,10 +19,4 @@ void contract_rows(const Vector6& gradient, Matrix6X& rows);
 [[nodiscard]] Matrix6 find_link_stiffness(const SystemTerms& terms,
                                           std::size_t link, double velocity);
 
-/// The motion of an attachment on an unreduced body per node, both in the body
-/// frame: 3N x 6.
-[[nodiscard]] MatrixX make_body_columns(const Attachment& attachment,
-                                        const AttachmentMotion& motion,
-                                        const Matrix3& R_HB, Eigen::Index dofs);
-
 }  // namespace limber::dynamics

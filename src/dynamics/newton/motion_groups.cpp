@@ -5,42 +5,11 @@
 #include <cmath>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
-namespace {
-
-// A body's translation in the world's axes.
-Vector3 find_translation(const SystemModel& model, const SystemState& state,
-                         const VectorX& motion, std::size_t b) {
-  const BodyModel& body = model.bodies[b];
-  if (body.full < 0) return translation_rows(body, motion);
-  const FullModel& full = model.full_bodies[index(body.full)];
-  return state.X_WH[index(body.full)].R *
-         nodal_rows(model, full, motion).rowwise().mean();
-}
-
-// The square of a body's motion relative to a translation [m^2].
-double measure_squared(const SystemModel& model, const SystemState& state,
-                       const VectorX& motion, std::size_t b,
-                       const Vector3& translation) {
-  const BodyModel& body = model.bodies[b];
-  const double modal = mode_rows(body, motion).squaredNorm() / body.mass;
-  if (body.full >= 0) {
-    const Vector3 translation_H =
-        state.X_WH[index(body.full)].R.transpose() * translation;
-    const ConstNodes u_H =
-        nodal_rows(model, model.full_bodies[index(body.full)], motion);
-    return modal + (u_H.colwise() - translation_H).squaredNorm() /
-                       static_cast<double>(u_H.cols());
-  }
-  return modal + (translation_rows(body, motion) - translation).squaredNorm() +
-         0.5 * body.J0.trace() / body.mass *
-             rotation_rows(body, motion).squaredNorm();
-}
-
-}  // namespace
 
 MotionGroups::MotionGroups(const SystemModel& model)
     : group_of_(model.bodies.size()) {
@@ -87,7 +56,9 @@ void MotionGroups::measure_motion(const SystemModel& model,
     Common& common = common_[find_joined(b)];
     const double mass = model.bodies[b].mass;
     common.mass += mass;
-    common.momentum += mass * find_translation(model, state, motion, b);
+    common.momentum += mass * visit_body(model, b, [&](const auto& own) {
+                         return own.find_translation(state, motion);
+                       });
   }
   for (Common& common : common_) {
     if (!common.is_held && common.mass > 0.0) {
@@ -96,9 +67,10 @@ void MotionGroups::measure_motion(const SystemModel& model,
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     Common& common = common_[find_joined(b)];
-    common.squared =
-        std::max(common.squared,
-                 measure_squared(model, state, motion, b, common.translation));
+    common.squared = std::max(
+        common.squared, visit_body(model, b, [&](const auto& own) {
+          return own.measure_squared(state, motion, common.translation);
+        }));
   }
   for (std::size_t g = 0; g < count(); ++g) {
     lengths[g] = std::sqrt(common_[find(g)].squared);

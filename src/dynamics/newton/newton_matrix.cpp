@@ -8,7 +8,6 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/nodal_jacobian.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/newton/free_rows.hpp"
 #include "limber/dynamics/newton/link_rows.hpp"
@@ -16,8 +15,7 @@
 namespace limber::dynamics {
 
 NewtonMatrix::NewtonMatrix(const SystemModel& model)
-    : full_(model.full_bodies.size()),
-      ends_of_body_(model.bodies.size()),
+    : ends_of_body_(model.bodies.size()),
       couplers_(model.couplers.size()),
       pairs_(model) {
   const std::size_t links = couplers_ + model.transmissions.size();
@@ -28,7 +26,9 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   graph_.links = static_cast<int>(links);
   graph_.grounded.resize(links, false);
   bodies_.reserve(model.bodies.size());
-  for (const BodyModel& body : model.bodies) bodies_.emplace_back(body);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    bodies_.emplace_back(model, b);
+  }
   const auto add_pair = [&](int link, CouplerIndex coupler, int term) {
     const Coupler& c = model.couplers[index(coupler)];
     add_end(model, link, coupler, term, c.frame_F, false);
@@ -64,7 +64,7 @@ void NewtonMatrix::finish_graph(const SystemModel& model) {
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    graph_.blocks.push_back(body.full < 0 ? bodies_[b].block_count() : 0);
+    graph_.blocks.push_back(bodies_[b].block_count());
     graph_.sizes.push_back(6 + body.modes);
     graph_.moves.push_back(body.has_rigid_motion());
   }
@@ -78,21 +78,12 @@ void NewtonMatrix::add_end(const SystemModel& model, int link,
     graph_.grounded[index(link)] = true;
     return;
   }
-  const BodyModel& body = model.bodies[index(b)];
-  End end{.link = link,
-          .coupler = coupler,
-          .term = term,
-          .attachment = attachment,
-          .body = b,
-          .is_M = is_M,
-          .row = body.row,
-          .G = Matrix6X::Zero(6, 6 + body.modes)};
-  if (body.full >= 0) {
-    const FullModel& full = model.full_bodies[index(body.full)];
-    end.row = first_node_row(model) + full.first;
-    end.G = Matrix6X::Zero(6, full.dofs());
-  }
-  end.Zt = end.G;
+  End end{bodies_[index(b)].make_end(model, attachment)};
+  end.link = link;
+  end.coupler = coupler;
+  end.term = term;
+  end.body = b;
+  end.is_M = is_M;
   ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
   ends_.push_back(std::move(end));
 }
@@ -117,50 +108,33 @@ void NewtonMatrix::finish_rows(const SystemTerms& terms, const End& end,
   contract_rows(transmission.gradients[index(end.term)], rows);
 }
 
-void NewtonMatrix::calc_modal_rows(const SystemModel& model,
-                                   const SystemTerms& terms, End& end) const {
-  const auto i = index(end.attachment);
-  calc_modal_jacobian(model.attachments[i], terms.attachments[i],
-                      find_R_FW(model, terms, end), end.G);
+void NewtonMatrix::calc_rows(const SystemModel& model, const SystemState& state,
+                             const SystemTerms& terms, End& end) const {
+  bodies_[index(end.body)].calc_rows(model, state, terms,
+                                     find_R_FW(model, terms, end), end);
   finish_rows(terms, end, end.G);
 }
 
 void NewtonMatrix::factor_end(const SystemModel& model,
                               const SystemState& state,
                               const SystemTerms& terms, End& end) const {
-  const Attachment& attachment = model.attachments[index(end.attachment)];
-  const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
-  if (!attachment.nodal) {
-    calc_modal_rows(model, terms, end);
-    if (is_retained(end)) {
-      if (plan_.retained[index(plan_.retained_of_body[index(end.body)])]
-              .precedes_links) {
-        bodies_[index(end.body)].solve_rows(end.G, end.Zt);
-        end.compliance.noalias() = end.G.lazyProduct(end.Zt.transpose());
-      }
-      end.Zt = end.G;
-      if (!model.bodies[index(end.body)].has_rigid_motion()) {
-        end.Zt.leftCols<6>().setZero();
-      }
-    } else {
-      bodies_[index(end.body)].solve_rows(end.G, end.Zt);
-    }
+  const BodyFactor& body = bodies_[index(end.body)];
+  calc_rows(model, state, terms, end);
+  if (!is_retained(end)) {
+    body.solve_end(
+        model, state, find_R_FW(model, terms, end),
+        [&](Matrix6X& rows) { finish_rows(terms, end, rows); }, end);
     return;
   }
-  const BodyModel& body = model.bodies[index(end.body)];
-  const Matrix3 R_FW = find_R_FW(model, terms, end);
-  const Pose& X_WH = state.X_WH[index(body.full)];
-  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_FW * X_WH.R, end.G);
-  finish_rows(terms, end, end.G);
-  const Matrix3& R_HB = full_[index(body.full)].R_HB();
-  const Matrix3 R_FB = R_FW * X_WH.R * R_HB;
-  for (Eigen::Index i = 0; i < end.Zt.cols(); i += 3) {
-    end.Zt.block<3, 3>(0, i) =
-        R_FB * end.Zt_B.block<3, 3>(0, i) * R_HB.transpose();
-    end.Zt.block<3, 3>(3, i) =
-        R_FB * end.Zt_B.block<3, 3>(3, i) * R_HB.transpose();
+  if (plan_.retained[index(plan_.retained_of_body[index(end.body)])]
+          .precedes_links) {
+    body.dense().solve_rows(end.G, end.Zt);
+    end.compliance.noalias() = end.G.lazyProduct(end.Zt.transpose());
   }
-  finish_rows(terms, end, end.Zt);
+  end.Zt = end.G;
+  if (!model.bodies[index(end.body)].has_rigid_motion()) {
+    end.Zt.leftCols<6>().setZero();
+  }
 }
 
 void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
@@ -230,7 +204,7 @@ void NewtonMatrix::assemble_retained(const RetainedUnknowns& retained) {
   for (int i = 0; i < retained.blocks; ++i) {
     for (int j = 0; j < retained.blocks; ++j) {
       plan_.lu.block(retained.first + i, retained.first + j) =
-          bodies_[index(retained.body)].block(i, j);
+          bodies_[index(retained.body)].dense().block(i, j);
     }
     for (const int e : ends_of_body_[index(retained.body)]) {
       const End& end = ends_[index(e)];
@@ -241,26 +215,6 @@ void NewtonMatrix::assemble_retained(const RetainedUnknowns& retained) {
           end.G.middleCols(first, count);
       plan_.lu.block(retained.first + i, end.link).topRows(count) -=
           end.Zt.middleCols(first, count).transpose();
-    }
-  }
-}
-
-// Sparse factors in the body frame, and their solutions for each end's
-// wrenches.
-void NewtonMatrix::factor_full(const SystemModel& model,
-                               const SystemState& state, SystemTerms& terms,
-                               const Coefficients& c, bool renews) {
-  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
-    if (!full_[f].update(model, f, state, terms, c, renews)) continue;
-    const FullModel& full = model.full_bodies[f];
-    for (End& end : ends_) {
-      if (end.body != full.body) continue;
-      const auto i = index(end.attachment);
-      MatrixX columns =
-          make_body_columns(model.attachments[i], terms.attachments[i],
-                            full_[f].R_HB(), full.dofs());
-      full_[f].solve_columns(full, *terms.full[f].solver, columns);
-      end.Zt_B = columns.transpose();
     }
   }
 }
@@ -296,7 +250,7 @@ std::string NewtonMatrix::describe_singular(const SystemModel& model,
 
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms, const VectorX& motion,
-                          const Coefficients& coefficients, bool renews_full,
+                          const Coefficients& coefficients, bool renews_all,
                           const SystemTerms* end_terms) {
   if (end_terms == nullptr) calc_stiffness(model, state, terms);
   if (pairs_.update(terms)) {
@@ -305,15 +259,18 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Vector3 turn = rotation_rows(model.bodies[b], motion);
-    bodies_[b].update(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
-                      end_terms != nullptr ? cayley_jacobian_inverse(turn)
-                                           : right_jacobian_inverse(turn),
-                      coefficients);
+    const Matrix3 T = end_terms != nullptr ? cayley_jacobian_inverse(turn)
+                                           : right_jacobian_inverse(turn);
+    if (!bodies_[b].update(model, state, terms, T, coefficients, renews_all)) {
+      continue;
+    }
+    for (const int e : ends_of_body_[b]) {
+      bodies_[b].renew_end(model, terms, ends_[index(e)]);
+    }
   }
-  factor_full(model, state, terms, coefficients, renews_full);
   for (End& end : ends_) {
     factor_end(model, state, terms, end);
-    if (end_terms != nullptr) calc_modal_rows(model, *end_terms, end);
+    if (end_terms != nullptr) calc_rows(model, state, *end_terms, end);
   }
   assemble(model, terms, end_terms != nullptr ? *end_terms : terms,
            coefficients);
@@ -348,13 +305,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (plan_.retained_of_body[b] >= 0) continue;
-    bodies_[b].solve(increments.data() + model.bodies[b].row);
-  }
-  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
-    const FullModel& full = model.full_bodies[f];
-    full_[f].solve(
-        full, *terms.full[f].solver,
-        increments.segment(first_node_row(model) + full.first, full.dofs()));
+    bodies_[b].solve(model, terms, increments);
   }
   increments = -increments;
   for (Vector6& x : unknowns_) x.setZero();

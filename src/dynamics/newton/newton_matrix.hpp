@@ -4,9 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "limber/dynamics/bodies/body_factor.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
-#include "limber/dynamics/newton/body_factor.hpp"
-#include "limber/dynamics/newton/full_factor.hpp"
 #include "limber/dynamics/newton/lu_plan.hpp"
 #include "limber/dynamics/newton/pair_tangents.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -19,7 +18,7 @@ namespace limber::dynamics {
 ///            dw_c = s_c - K_c sum_b G_cb x_b            (each coupler c)
 ///            D_b: inertia, damping and elasticity of one body; where that is
 ///            diagonal its modal block is, too, so D_b^-1 costs O(m), else
-///            it is dense (BodyFactor); of an unreduced body
+///            it is dense (ModalFactor); of an unreduced body
 ///            it is Q (c M + K(u)) Q', sparse, with Q the rotation of its nodes
 ///            with the body, so that its factors remain valid under large
 ///            rotation. G_cb: the coupler's relative motion per body increment.
@@ -53,13 +52,11 @@ class NewtonMatrix {
   NewtonMatrix() = default;
   explicit NewtonMatrix(const SystemModel& model);
 
-  /// Derivatives of acceleration [1/s^2] and velocity [1/s] at the step's end
-  /// per increment.
-  using Coefficients = FullFactor::Coefficients;
+  using Coefficients = TangentCoefficients;
 
   /// Factors at the evaluated `terms`; `motion` is the step's, whose rotations
   /// count [rad]. Unreduced bodies keep their sparse factors, in the
-  /// body frame, until the acceleration coefficient changes or `renews_full` is
+  /// body frame, until the acceleration coefficient changes or `renews_all` is
   /// set.
   /// @throws NumericalError naming the coupler or body.
   /// @param end_terms where couplers are evaluated, if wrenches act elsewhere,
@@ -67,7 +64,7 @@ class NewtonMatrix {
   /// those of Cayley's transform, and BodyTerms::stiffness is that of `terms`
   void factor(const SystemModel& model, const SystemState& state,
               SystemTerms& terms, const VectorX& motion,
-              const Coefficients& coefficients, bool renews_full = false,
+              const Coefficients& coefficients, bool renews_all = false,
               const SystemTerms* end_terms = nullptr);
 
   /// Increments for a residual: solves with -r (sizes 6 bodies + modes) and
@@ -105,25 +102,19 @@ class NewtonMatrix {
 
  private:
   // One end of a coupler or transmission on a moving body.
-  struct End {
-    int link = 0;          // couplers first, then transmissions
-    CouplerIndex coupler;  // in whose frame F it is expressed; none: world
-    int term = -1;         // of a transmission's coordinate
-    AttachmentIndex attachment;
-    BodyIndex body;
+  struct End : LinkEnd {
+    int link = 0;            // couplers first, then transmissions
+    CouplerIndex coupler{};  // in whose frame F it is expressed; none: world
+    int term = -1;           // of a transmission's coordinate
+    BodyIndex body{};
     bool is_M = true;
-    Eigen::Index row = 0;  // the body's first
-    Matrix6X G;            // 6 x (6 + m), or 6 x 3N
-    Matrix6X Zt{};    // (D^-1 G')'; of a retained body G at the acting wrench
-    Matrix6X Zt_B{};  // of an unreduced body, both in the body frame
-    Matrix6 compliance =
-        Matrix6::Zero();  // G D^-1 G' of a body that precedes the links, about
+    // G D^-1 G' of a body that precedes the links, about; Zt of a retained one
+    // is G at the acting wrench.
+    Matrix6 compliance = Matrix6::Zero();
   };
 
   void add_end(const SystemModel& model, int link, CouplerIndex coupler,
                int term, AttachmentIndex attachment, bool is_M);
-  void factor_full(const SystemModel& model, const SystemState& state,
-                   SystemTerms& terms, const Coefficients& c, bool renews);
   void factor_end(const SystemModel& model, const SystemState& state,
                   const SystemTerms& terms, End& end) const;
   [[nodiscard]] Matrix3 find_R_FW(const SystemModel& model,
@@ -131,9 +122,9 @@ class NewtonMatrix {
                                   const End& end) const;
   void finish_rows(const SystemTerms& terms, const End& end,
                    Matrix6X& rows) const;
-  // G of an end on a reduced body.
-  void calc_modal_rows(const SystemModel& model, const SystemTerms& terms,
-                       End& end) const;
+  // Sets G of an end.
+  void calc_rows(const SystemModel& model, const SystemState& state,
+                 const SystemTerms& terms, End& end) const;
   void finish_graph(const SystemModel& model);
   [[nodiscard]] bool is_retained(const End& end) const {
     return plan_.retained_of_body[static_cast<std::size_t>(end.body)] >= 0;
@@ -148,7 +139,6 @@ class NewtonMatrix {
                                               int row) const;
 
   std::vector<BodyFactor> bodies_;
-  std::vector<FullFactor> full_;
   std::vector<End> ends_;
   std::vector<std::vector<int>> ends_of_body_;
   std::size_t couplers_ = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -18,25 +19,6 @@ constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Of what contacts do to a body, relative to its radius of gyration: resting
 // boxes do not come closer.
 constexpr double kContactRoundoff = 1e-14;
-// Forces of a whole mesh are differences of large ones: their round-off moves
-// soft modes by this factor more.
-constexpr double kNodalNoise = 100.0;
-
-double radius_of_gyration_squared(const BodyModel& body) {
-  const double r = radius_of_gyration(body);
-  return r * r;
-}
-
-// Mean square over a body's nodes; zero if it is reduced.
-double mean_square(const SystemModel& model, const BodyModel& body,
-                   const Eigen::Ref<const VectorX>& nodes) {
-  if (body.full < 0) return 0.0;
-  const FullModel& full =
-      model.full_bodies[static_cast<std::size_t>(body.full)];
-  return 3.0 * nodes.segment(full.first, full.dofs()).squaredNorm() /
-         static_cast<double>(full.dofs());
-}
-
 }  // namespace
 
 void measure_correction(const SystemModel& model, const MotionGroups& groups,
@@ -45,14 +27,13 @@ void measure_correction(const SystemModel& model, const MotionGroups& groups,
   sizes.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const double* x = increments.data() + body.row;
-    const double rigid =
-        Eigen::Map<const Vector3>(x).squaredNorm() +
-        radius_of_gyration_squared(body) *
-            Eigen::Map<const Vector3>(x + 3).squaredNorm() +
-        mean_square(model, body, increments.tail(model.nodal_count));
-    const double modal =
-        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass;
+    double rigid = 0.0;  // rather than modal
+    double modal = 0.0;
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      double& part = range.kind == UnknownKind::modes ? modal : rigid;
+      part += range.mass / body.mass *
+              increments.segment(range.row, range.size).squaredNorm();
+    }
     CorrectionSize& largest = sizes[groups.of(b)];
     if (!std::isfinite(largest.value)) continue;
     largest.rigid = std::max(largest.rigid, rigid);
@@ -77,23 +58,14 @@ void measure_reversal(const SystemModel& model, const MotionGroups& groups,
                       std::vector<Reversal>& reversals) {
   reversals.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
     Reversal& sum = reversals[groups.of(b)];
-    const auto add = [&](double weight, Eigen::Index row, Eigen::Index rows) {
-      const auto x = now.segment(row, rows);
-      const auto y = before.segment(row, rows);
-      sum.both += weight * x.dot(y);
-      sum.now += weight * x.squaredNorm();
-      sum.before += weight * y.squaredNorm();
-    };
-    const Eigen::Index row = body.row;
-    add(body.mass, row, 3);
-    add(body.mass * radius_of_gyration_squared(body), row + 3, 3);
-    add(1.0, row + 6, body.modes);
-    if (body.full < 0) continue;
-    const FullModel& full = model.full_bodies[index(body.full)];
-    add(3.0 * body.mass / static_cast<double>(full.dofs()),
-        first_node_row(model) + full.first, full.dofs());
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      const auto x = now.segment(range.row, range.size);
+      const auto y = before.segment(range.row, range.size);
+      sum.both += range.mass * x.dot(y);
+      sum.now += range.mass * x.squaredNorm();
+      sum.before += range.mass * y.squaredNorm();
+    }
   }
 }
 
@@ -104,13 +76,9 @@ void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     Roundoff& largest = roundoffs[groups.of(b)];
-    double reach = radius_of_gyration_squared(body);
-    if (body.full >= 0) {
-      reach += mean_square(model, body, state.u_H);
-      reach *= kNodalNoise * kNodalNoise;
-    } else {
-      reach += state.bodies[b].p_WB.squaredNorm();
-    }
+    const double reach = visit_body(model, b, [&](const auto& own) {
+      return own.find_rounded_square(state);
+    });
     const double step = kRoundoff * translation_rows(body, motion).norm();
     const double bend =
         state.eta.segment(body.offset, body.modes).squaredNorm() / body.mass;

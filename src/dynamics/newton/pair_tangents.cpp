@@ -5,6 +5,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
 
@@ -77,7 +78,7 @@ std::vector<BodyPair> PairTangents::active(const SystemModel& model) const {
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     if (counts_[i] == 0) continue;
     const auto find_kept = [&](BodyIndex b) {
-      return b != kWorld && model.bodies[index(b)].full >= 0 ? kWorld : b;
+      return b != kWorld && !has_dense_block(model, index(b)) ? kWorld : b;
     };
     pairs.emplace_back(find_kept(model.pairs[i].body_A),
                        find_kept(model.pairs[i].body_B));
@@ -91,7 +92,7 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
                         double velocity, const LuPlan& plan, Columns& columns) {
   const BodyIndex b = is_A ? pair.body_A : pair.body_B;
   columns.blocks = 0;
-  if (b == kWorld || model.bodies[index(b)].full >= 0) return;
+  if (b == kWorld || !has_dense_block(model, index(b))) return;
   const RetainedUnknowns& retained =
       plan.retained[index(plan.retained_of_body[index(b)])];
   columns.first = retained.first;

@@ -5,8 +5,9 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
+#include "limber/dynamics/bodies/body_increment.hpp"
 #include "limber/dynamics/equations/nodal_jacobian.hpp"
-#include "limber/dynamics/newton/body_increment.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
@@ -72,7 +73,7 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
       (right_jacobian_inverse(rotation_rows(body, *motion_)) * d.theta);
   const Vector6 d_w_squared = change_half_square(w, d_w);
   auto r_modes = r.segment(body.row + 6, body.modes);
-  if (body.fidelity == Fidelity::one_way) {
+  if (is_one_way(body)) {
     r_modes -= body.inertia->J1.transpose() * d_w_squared;
   }
   if (!is_coupled(body.fidelity)) return;
@@ -163,13 +164,13 @@ ResidualDerivative::FrameChange ResidualDerivative::change_frame(
 ResidualDerivative::FrameChange ResidualDerivative::change_nodal_frame(
     const Attachment& attachment, const AttachmentMotion& motion,
     const VectorX& x) const {
-  const BodyModel& body = model_.bodies[index(attachment.body)];
-  const FullModel& full = model_.full_bodies[index(body.full)];
-  const Matrix3& R_WH = state_->X_WH[index(body.full)].R;
-  Matrix6X G(6, full.dofs());
-  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_WH, G);
-  const Vector6 moved =
-      G * x.segment(first_node_row(model_) + full.first, full.dofs());
+  // Of a nodal frame only nodes move.
+  const UnknownRange nodes =
+      *list_unknowns(model_, index(attachment.body)).begin();
+  Matrix6X G(6, nodes.size);
+  calc_nodal_jacobian(*attachment.nodal, motion.nodal,
+                      motion.R_WB * motion.nodal.R_HB.transpose(), G);
+  const Vector6 moved = G * x.segment(nodes.row, nodes.size);
   return {moved.head<3>(), moved.tail<3>(), c_.velocity * moved.head<3>(),
           c_.velocity * moved.tail<3>()};
 }

@@ -83,19 +83,6 @@ class ResidualDerivative {
                    const VectorX& x, VectorX& r, Vector6& law) const;
   void change_sum(const JointSum& sum, const TransmissionTerms& terms,
                   const VectorX& x, VectorX& r, Vector6& law) const;
-  // Motion of a place of a pair, world frame, and its change.
-  struct PlaceChange {
-    Vector3 arm_B = Vector3::Zero();
-    Vector3 p = Vector3::Zero(), v = Vector3::Zero();
-  };
-  [[nodiscard]] PlaceChange change_place(BodyIndex body,
-                                         const joints::PairPlace& place,
-                                         const Vector3& arm_B,
-                                         const VectorX& x) const;
-  void change_force(BodyIndex body, const joints::PairPlace& place,
-                    const Vector3& arm_B, const Vector3& d_arm_B,
-                    const Vector3& force, const Vector3& d_force,
-                    const VectorX& x, VectorX& r) const;
   void change_pairs(const VectorX& x, VectorX& r) const;
   void change_load(const Load& load, const VectorX& x, VectorX& r) const;
   void change_body_load(const BodyLoad& load, const VectorX& x,

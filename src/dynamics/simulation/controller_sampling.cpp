@@ -148,7 +148,7 @@ bool ControllerSampling::take(SystemState& state, VectorX& work) {
   }
   if (due_.empty()) return false;
   seen_ = state;
-  if (!model_.full_bodies.empty()) update_mean_frames(model_, seen_);
+  if (model_.nodal_count > 0) update_mean_frames(model_, seen_);
   SystemState after = state;
   for (const std::size_t i : due_) sample(i, seen_, after);
   bool has_jump = false;

@@ -206,17 +206,7 @@ class DamperFilter {
       }
       pair.uncouple();
     }
-    for (BodyTerms& body : terms_.bodies) {
-      body.force_W.setZero();
-      body.moment_B.setZero();
-      body.modal_force.setZero();
-      body.bias_r.setZero();
-      body.bias_e.setZero();
-    }
-    for (FullTerms& full : terms_.full) {
-      full.force.setZero();
-      full.internal.setZero();
-    }
+    clear_forces(terms_);
   }
 
   const SystemModel& model_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/simulation/modal_loads.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
@@ -74,10 +75,11 @@ ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
 }
 
 bool ExactModes::has_motion_left() const {
-  return std::any_of(rest_.bodies.begin(), rest_.bodies.end(),
-                     [](const BodyModel& body) {
-                       return !body.clamped || body.modes > 0 || body.full >= 0;
-                     });
+  for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
+    const UnknownRanges unknowns = list_unknowns(rest_, b);
+    if (unknowns.begin() != unknowns.end()) return true;
+  }
+  return false;
 }
 
 SystemState ExactModes::take_rest(const SystemState& whole) const {

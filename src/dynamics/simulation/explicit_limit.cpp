@@ -9,11 +9,12 @@
 #include <random>
 
 #include "limber/common/errors.hpp"
-#include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -28,31 +29,20 @@ constexpr double kMostEnergyGrowth = 1.05;
 
 // A small change of a state, velocities times the step.
 struct Change {
-  std::vector<Vector3> p, turn, v, w;
-  VectorX eta, etadot, maxwell, u, udot;
+  VectorX motion, velocity;  // of all unknowns
+  VectorX maxwell;
 };
 
 template <typename Visit>
 void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].has_rigid_motion()) continue;
-    const double mass = std::sqrt(model.bodies[b].mass);
-    const double inertia = std::sqrt(model.bodies[b].J0.trace() / 3.0);
-    visit(x.p[b], mass);
-    visit(x.v[b], mass);
-    visit(x.turn[b], inertia);
-    visit(x.w[b], inertia);
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      const double weight = std::sqrt(range.mass);
+      visit(x.motion.segment(range.row, range.size), weight);
+      visit(x.velocity.segment(range.row, range.size), weight);
+    }
   }
-  visit(x.eta, 1.0);
-  visit(x.etadot, 1.0);
   visit(x.maxwell, 1.0);
-  for (const FullModel& full : model.full_bodies) {
-    const double mass = full.mesh->node_mass.sum();
-    const double weight =
-        std::sqrt(3.0 * mass / static_cast<double>(full.dofs()));
-    visit(x.u.segment(full.first, full.dofs()), weight);
-    visit(x.udot.segment(full.first, full.dofs()), weight);
-  }
 }
 
 // The derivative of one step about a state, by finite differences.
@@ -65,11 +55,11 @@ class StepDerivative {
         h_(settings.step),
         integrator_(make_integrator(model, settings)),
         end_(take_step(state)) {
-    const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
-    const VectorX modes = VectorX::Zero(model.modal_count);
-    const VectorX nodes = VectorX::Zero(model.nodal_count);
-    const VectorX elements = VectorX::Zero(model.maxwell_count);
-    x_ = {zero, zero, zero, zero, modes, modes, elements, nodes, nodes};
+    x_ = {make_unknowns(model), make_unknowns(model),
+          VectorX::Zero(model.maxwell_count)};
+    v_ = v_end_ = make_unknowns(model);
+    get_velocities(model, state, v_);
+    get_velocities(model, end_, v_end_);
     std::mt19937 random(1);
     for_each_vector(model_, x_, [&](auto&& part, double weight) {
       for (Eigen::Index i = 0; i < part.size(); ++i) {
@@ -113,38 +103,19 @@ class StepDerivative {
   [[nodiscard]] SystemState displace() const {
     const double e = increment_;
     SystemState moved = state_;
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      BodyState& body = moved.bodies[b];
-      body.p_WB += e * x_.p[b];
-      body.quat_WB = body.quat_WB * exp_quaternion(e * x_.turn[b]);
-      body.v_WB_W += e / h_ * x_.v[b];
-      body.w_WB_B += e / h_ * x_.w[b];
-    }
-    moved.eta += e * x_.eta;
-    moved.etadot += e / h_ * x_.etadot;
+    limber::dynamics::displace(model_, x_.motion, e, moved);
+    set_velocities(model_, v_ + e / h_ * x_.velocity, moved);
     moved.maxwell += e * x_.maxwell;
-    moved.u_H += e * x_.u;
-    moved.udot_H += e / h_ * x_.udot;
     return moved;
   }
 
   // x <- (moved - end) / e
   void subtract(const SystemState& moved) {
     const double e = increment_;
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyState& body = moved.bodies[b];
-      const BodyState& from = end_.bodies[b];
-      x_.p[b] = (body.p_WB - from.p_WB) / e;
-      Quaternion turn = from.quat_WB.conjugate() * body.quat_WB;
-      x_.turn[b] = 2.0 / e * std::copysign(1.0, turn.w()) * turn.vec();
-      x_.v[b] = h_ / e * (body.v_WB_W - from.v_WB_W);
-      x_.w[b] = h_ / e * (body.w_WB_B - from.w_WB_B);
-    }
-    x_.eta = (moved.eta - end_.eta) / e;
-    x_.etadot = h_ / e * (moved.etadot - end_.etadot);
+    x_.motion = find_increments(model_, end_, moved) / e;
+    get_velocities(model_, moved, x_.velocity);
+    x_.velocity = h_ / e * (x_.velocity - v_end_);
     x_.maxwell = (moved.maxwell - end_.maxwell) / e;
-    x_.u = (moved.u_H - end_.u_H) / e;
-    x_.udot = h_ / e * (moved.udot_H - end_.udot_H);
   }
 
   const SystemModel& model_;
@@ -152,6 +123,8 @@ class StepDerivative {
   double h_;
   std::unique_ptr<Integrator> integrator_;
   SystemState end_;
+  VectorX v_;      // of state_
+  VectorX v_end_;  // of end_
   Change x_;
   double increment_ = 0.0;
 };

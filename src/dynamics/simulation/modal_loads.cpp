@@ -140,7 +140,7 @@ class Collector {
 
 bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
   const BodyModel& body = get_body(model, index);
-  if (body.modes == 0 || body.fidelity != Fidelity::uncoupled) return false;
+  if (body.modes == 0 || body.fidelity >= Fidelity::one_way) return false;
   if (!flexbody::is_diagonal(body.elasticity)) return false;
   if (body.maxwell.size() > 0) return false;
   const auto is_here = [&](AttachmentIndex i) {
@@ -168,7 +168,7 @@ bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
                      [&](const Load& load) {
                        return !is_here(load.where) ||
                               (has_closed_form(load.function) &&
-                               (body.clamped || !load.in_world));
+                               (!body.has_rigid_motion() || !load.in_world));
                      });
 }
 
@@ -179,7 +179,7 @@ ModalLoads find_modal_loads(const SystemModel& model, BodyIndex index,
                            .quat_WB.toRotationMatrix()
                            .transpose();
   Collector collector(body.modes);
-  if (body.clamped) {
+  if (body.P.cols() > 0) {
     collector.add({{start.t}, body.P.transpose() * (R_BW * model.gravity_W)});
   }
   for (const Load& load : model.loads) {

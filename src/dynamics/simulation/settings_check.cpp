@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 
@@ -86,7 +87,6 @@ void check_settings(const SystemModel& model, const SystemState& state,
   LIMBER_EXPECT(state.eta.size() == model.modal_count);
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
   LIMBER_EXPECT(state.maxwell.size() == model.maxwell_count);
-  LIMBER_EXPECT(state.X_WH.size() == model.full_bodies.size());
   LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
   LIMBER_EXPECT(state.udot_H.size() == model.nodal_count);
   LIMBER_EXPECT(state.memory.size() ==
@@ -132,11 +132,12 @@ void check_settings(const SystemModel& model, const SystemState& state,
   if (!(settings.newton_tolerance >= 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance must be >= 0, newton_iterations > 0");
   }
-  if (!traits.takes_full_bodies && !model.full_bodies.empty()) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (traits.takes_nodes || has_dense_block(model, b)) continue;
     refuse(fmt::format(
-        "body '{}' is at level full, which {} does not integrate; use {}",
-        model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)].name,
-        traits.name, name_those(&IntegratorTraits::takes_full_bodies)));
+        "body '{}' is at level {}, which {} does not integrate; use {}",
+        model.bodies[b].name, to_string(model.bodies[b].fidelity), traits.name,
+        name_those(&IntegratorTraits::takes_nodes)));
   }
 }
 

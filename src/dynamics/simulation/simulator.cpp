@@ -50,12 +50,12 @@ struct Simulator::Parts {
   }
 
   [[nodiscard]] const SystemState& shown() const {
-    return model.full_bodies.empty() ? state : framed;
+    return model.nodal_count == 0 ? state : framed;
   }
 
   // The caller's state: frames of unreduced bodies follow their nodes.
   void show() {
-    if (model.full_bodies.empty()) return;
+    if (model.nodal_count == 0) return;
     framed = state;
     update_mean_frames(model, framed);
   }

@@ -203,11 +203,11 @@ void run_once(const SystemModel& model, SystemState& state,
   RoundingLimit rounding(model);
   const TimeLoop::Visit visit = [&](const SystemState& at,
                                     const Losses& losses) {
-    if (!model.full_bodies.empty()) {
+    if (model.nodal_count > 0) {
       framed = at;
       update_mean_frames(model, framed);
     }
-    const SystemState& now = model.full_bodies.empty() ? at : framed;
+    const SystemState& now = model.nodal_count == 0 ? at : framed;
     rounding.check(now, statistics.warnings);
     if (!observer) return;
     EnergyBalance balance = calc_energy(model, now, terms);

@@ -28,6 +28,16 @@ namespace limber::dynamics {
          !flexbody::is_diagonal(body.elasticity);
 }
 
+/// Whether rotation acts on a body's modes, but not they on it.
+[[nodiscard]] inline bool is_one_way(const BodyModel& body) {
+  return body.fidelity == Fidelity::one_way;
+}
+
+/// Whether a body's motion is of second order in its modes.
+[[nodiscard]] inline bool is_quadratic(const BodyModel& body) {
+  return body.fidelity == Fidelity::nonlinear;
+}
+
 /// Modes whose products move a body's points at level nonlinear, increasing
 /// (flexbody/model/mode_products.hpp); else none.
 [[nodiscard]] inline const std::vector<int>& paired_of(const BodyModel& body) {

@@ -60,6 +60,8 @@ struct BodyModel {
   /// Whether frame B has its own equations of motion: that of a clamped body is
   /// fixed, and that of an unreduced one follows its nodes.
   [[nodiscard]] bool has_rigid_motion() const { return !clamped && full < 0; }
+  /// Whether the world holds it.
+  [[nodiscard]] bool is_held() const { return clamped; }
 };
 
 /// Additional data of a BodyModel at level `full`.

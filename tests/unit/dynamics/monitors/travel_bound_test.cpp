@@ -23,7 +23,7 @@ TEST(TravelBound, OfARigidBodyIsThatOfItsFarthestPoint) {
   bound.find_speeds(model, state, speeds);
   EXPECT_EQ(speeds[0], 0.0);  // nothing of it may touch
   for (const double extent : {0.5, 0.7, 0.1}) {
-    bound.include(body, {.extent = extent, .modes = {}});
+    bound.include(model, body, {.extent = extent, .modes = {}});
   }
   bound.find_speeds(model, state, speeds);
   EXPECT_NEAR(speeds[0], 5.0 + 2.0 * 0.7, 1e-14);
@@ -41,7 +41,7 @@ TEST(TravelBound, OfAnUnreducedBodyIsThatOfItsFastestNode) {
   VectorX spread = VectorX::Zero(model.full_bodies[0].dofs() + 1);
   for (const double most : {1.2, 1.5, 1.0}) {
     spread[spread.size() - 1] = most;
-    bound.include(BodyIndex(0), {.extent = 0.2, .modes = spread});
+    bound.include(model, BodyIndex(0), {.extent = 0.2, .modes = spread});
   }
   std::vector<double> speeds(1);
   bound.find_speeds(model, state, speeds);

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/newton/full_factor.hpp"
+#include "limber/dynamics/bodies/nodal_factor.hpp"
 
 #include <cmath>
 
 #include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
+std::size_t index_of_full(const SystemModel& model, std::size_t body) {
+  return index(model.bodies[body].full);
+}
+
 // Rotates three rows at a time.
-void turn_nodes(const Matrix3& R, Eigen::Ref<VectorX> x) {
+void rotate_nodes(const Matrix3& R, Eigen::Ref<VectorX> x) {
   for (Eigen::Index i = 0; i < x.size(); i += 3) {
     const Vector3 turned = R * x.segment<3>(i);
     x.segment<3>(i) = turned;
@@ -49,10 +56,12 @@ MatrixX make_rigid_fields(const Matrix3X& b_B) {
 
 }  // namespace
 
-bool FullFactor::update(const SystemModel& model, std::size_t f,
-                        const SystemState& state, SystemTerms& terms,
-                        const Coefficients& c, bool renews) {
+bool NodalFactor::update(const SystemModel& model, std::size_t b,
+                         const SystemState& state, SystemTerms& terms,
+                         const Matrix3& /*T*/, const TangentCoefficients& c,
+                         bool renews) {
   constexpr double kSame = 1e-9;
+  const std::size_t f = index_of_full(model, b);
   const FullModel& full = model.full_bodies[f];
   MeanFrame frame;
   calc_mean_frame(model, full, state, frame);
@@ -78,9 +87,9 @@ bool FullFactor::update(const SystemModel& model, std::size_t f,
 
 // The tangent of an unclamped body has no stiffness against rigid motion, and a
 // negative one under stress.
-double FullFactor::factor_free(const FullModel& full,
-                               flexbody::FullBodySolver& solver,
-                               const Matrix3X& u_B, double shift) {
+double NodalFactor::factor_free(const FullModel& full,
+                                flexbody::FullBodySolver& solver,
+                                const Matrix3X& u_B, double shift) {
   constexpr double kRegular = 1e-10;
   constexpr double kGrowth = 10.0;
   constexpr double kMost = 1.0;
@@ -96,9 +105,9 @@ double FullFactor::factor_free(const FullModel& full,
   }
 }
 
-void FullFactor::set_rigid_motion(const FullModel& full,
-                                  const flexbody::FullBodySolver& solver,
-                                  const Matrix3X& u_B) {
+void NodalFactor::set_rigid_motion(const FullModel& full,
+                                   const flexbody::FullBodySolver& solver,
+                                   const Matrix3X& u_B) {
   rigid_ = make_rigid_fields(full.mesh->x_B + u_B);
   rigid_momenta_.resize(rigid_.rows(), 6);
   const auto multiply_mass = [&] {
@@ -116,8 +125,8 @@ void FullFactor::set_rigid_motion(const FullModel& full,
   multiply_mass();
 }
 
-void FullFactor::solve_undamped(const flexbody::FullBodySolver& solver,
-                                Eigen::Ref<MatrixX> x_B) const {
+void NodalFactor::solve_undamped(const flexbody::FullBodySolver& solver,
+                                 Eigen::Ref<MatrixX> x_B) const {
   if (rigid_.size() == 0) {
     solver.solve(x_B);
     return;
@@ -130,9 +139,9 @@ void FullFactor::solve_undamped(const flexbody::FullBodySolver& solver,
   x_B.noalias() += rigid_ * motion;
 }
 
-void FullFactor::add_damping(const FullModel& full,
-                             const flexbody::FullBodySolver& solver,
-                             double velocity) {
+void NodalFactor::add_damping(const FullModel& full,
+                              const flexbody::FullBodySolver& solver,
+                              double velocity) {
   if (full.damping.size() == 0) return;
   V_ = full.damped_modes;
   solve_undamped(solver, V_);
@@ -142,21 +151,65 @@ void FullFactor::add_damping(const FullModel& full,
   V_ *= dense::solve(small, C);
 }
 
-void FullFactor::solve_columns(const FullModel& full,
-                               const flexbody::FullBodySolver& solver,
-                               Eigen::Ref<MatrixX> x_B) const {
+void NodalFactor::solve_columns(const FullModel& full,
+                                const flexbody::FullBodySolver& solver,
+                                Eigen::Ref<MatrixX> x_B) const {
   solve_undamped(solver, x_B);
   if (full.damping.size() == 0) return;
   const MatrixX rates = full.damped_modes.transpose() * x_B;
   x_B.noalias() -= V_ * rates;
 }
 
-void FullFactor::solve(const FullModel& full,
-                       const flexbody::FullBodySolver& solver,
-                       Eigen::Ref<VectorX> x_H) const {
-  turn_nodes(R_HB_.transpose(), x_H);
-  solve_columns(full, solver, x_H);
-  turn_nodes(R_HB_, x_H);
+void NodalFactor::solve(const SystemModel& model, std::size_t b,
+                        const SystemTerms& terms, VectorX& x) const {
+  const std::size_t f = index_of_full(model, b);
+  const FullModel& full = model.full_bodies[f];
+  auto x_H = x.segment(first_node_row(model) + full.first, full.dofs());
+  rotate_nodes(R_HB_.transpose(), x_H);
+  solve_columns(full, *terms.full[f].solver, x_H);
+  rotate_nodes(R_HB_, x_H);
+}
+
+LinkEnd NodalFactor::make_end(const SystemModel& model, std::size_t b) const {
+  const FullModel& full = model.full_bodies[index_of_full(model, b)];
+  return {.row = first_node_row(model) + full.first,
+          .G = Matrix6X::Zero(6, full.dofs())};
+}
+
+void NodalFactor::renew_end(const SystemModel& model, std::size_t b,
+                            const SystemTerms& terms, LinkEnd& end) const {
+  const std::size_t f = index_of_full(model, b);
+  const auto i = index(end.attachment);
+  Matrix6X motion(6, end.G.cols());
+  calc_nodal_jacobian(*model.attachments[i].nodal, terms.attachments[i].nodal,
+                      R_HB_.transpose(), motion);
+  for (Eigen::Index n = 0; n < motion.cols(); n += 3) {
+    motion.middleCols<3>(n) = (motion.middleCols<3>(n) * R_HB_).eval();
+  }
+  MatrixX columns = motion.transpose();
+  solve_columns(model.full_bodies[f], *terms.full[f].solver, columns);
+  end.Zt_B = columns.transpose();
+}
+
+void NodalFactor::calc_rows(const SystemModel& model, std::size_t b,
+                            const SystemState& state, const SystemTerms& terms,
+                            const Matrix3& R_FW, LinkEnd& end) const {
+  const auto i = index(end.attachment);
+  const Matrix3& R_WH = state.X_WH[index_of_full(model, b)].R;
+  calc_nodal_jacobian(*model.attachments[i].nodal, terms.attachments[i].nodal,
+                      R_FW * R_WH, end.G);
+}
+
+void NodalFactor::rotate_answers(const SystemModel& model, std::size_t b,
+                                 const SystemState& state, const Matrix3& R_FW,
+                                 LinkEnd& end) const {
+  const Matrix3 R_FB = R_FW * state.X_WH[index_of_full(model, b)].R * R_HB_;
+  for (Eigen::Index i = 0; i < end.Zt.cols(); i += 3) {
+    end.Zt.block<3, 3>(0, i) =
+        R_FB * end.Zt_B.block<3, 3>(0, i) * R_HB_.transpose();
+    end.Zt.block<3, 3>(3, i) =
+        R_FB * end.Zt_B.block<3, 3>(3, i) * R_HB_.transpose();
+  }
 }
 
 }  // namespace limber::dynamics

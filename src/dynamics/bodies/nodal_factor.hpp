@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "limber/dynamics/bodies/link_end.hpp"
+#include "limber/dynamics/bodies/tangent_coefficients.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 
 namespace limber::dynamics {
@@ -17,34 +19,40 @@ namespace limber::dynamics {
 ///            (c M + K)^-1 P' + R R' / c_a with P = 1 - R R' M and a c that
 ///            keeps the factors regular; the same where stress makes c_a M + K
 ///            indefinite.
-class FullFactor {
+class NodalFactor {
  public:
-  /// Coefficients of acceleration [1/s^2] and velocity [1/s].
-  struct Coefficients {
-    double acceleration = 0.0;  ///< [1/s^2]
-    double velocity = 0.0;      ///< [1/s]
-    /// Of all modes, what numerical damping adds to the diagonal of those whose
-    /// elasticity is diagonal; null: nothing [1/s^2].
-    const VectorX* calming = nullptr;
-  };
-
-  /// Takes the state's R_HB; refactors if the coefficients changed or if
-  /// `renews`. @returns whether it did.
+  /// As BodyFactor; takes the state's R_HB, and refactors if the coefficients
+  /// changed or if `renews`.
   /// @throws NumericalError naming the body and the time.
-  bool update(const SystemModel& model, std::size_t f, const SystemState& state,
-              SystemTerms& terms, const Coefficients& c, bool renews);
+  bool update(const SystemModel& model, std::size_t b, const SystemState& state,
+              SystemTerms& terms, const Matrix3& T,
+              const TangentCoefficients& c, bool renews);
+  [[nodiscard]] LinkEnd make_end(const SystemModel& model, std::size_t b) const;
+  void renew_end(const SystemModel& model, std::size_t b,
+                 const SystemTerms& terms, LinkEnd& end) const;
+  void calc_rows(const SystemModel& model, std::size_t b,
+                 const SystemState& state, const SystemTerms& terms,
+                 const Matrix3& R_FW, LinkEnd& end) const;
+  template <typename Finish>
+  void solve_end(const SystemModel& model, std::size_t b,
+                 const SystemState& state, const Matrix3& R_FW,
+                 const Finish& finish, LinkEnd& end) const {
+    rotate_answers(model, b, state, R_FW, end);
+    finish(end.Zt);
+  }
+  void solve(const SystemModel& model, std::size_t b, const SystemTerms& terms,
+             VectorX& x) const;
+  [[nodiscard]] int block_count() const { return 0; }
 
-  /// x <- D^-1 x, home frame.
-  void solve(const FullModel& full, const flexbody::FullBodySolver& solver,
-             Eigen::Ref<VectorX> x_H) const;
-  /// The same for columns in the body frame.
+ private:
+  // Sets Zt to the frame's answers, in F.
+  void rotate_answers(const SystemModel& model, std::size_t b,
+                      const SystemState& state, const Matrix3& R_FW,
+                      LinkEnd& end) const;
+  // x <- D^-1 x for columns in the body frame.
   void solve_columns(const FullModel& full,
                      const flexbody::FullBodySolver& solver,
                      Eigen::Ref<MatrixX> x_B) const;
-
-  [[nodiscard]] const Matrix3& R_HB() const { return R_HB_; }
-
- private:
   // @returns the c of its factors: `shift`, or a value that keeps them regular
   double factor_free(const FullModel& full, flexbody::FullBodySolver& solver,
                      const Matrix3X& u_B, double shift);

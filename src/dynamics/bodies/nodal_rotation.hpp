@@ -27,9 +27,9 @@ struct NewmarkStep {
 /// @param a, a_next the step's, of all unknowns; a_next is written for nodes of
 /// bodies that rotate by more than 0.01 rad
 /// @returns whether any does
-bool predict_turns(const SystemModel& model, const SystemState& from,
-                   const VectorX& accelerations, const VectorX& a,
-                   const NewmarkStep& step, VectorX& a_next);
+bool predict_rotations(const SystemModel& model, const SystemState& from,
+                       const VectorX& accelerations, const VectorX& a,
+                       const NewmarkStep& step, VectorX& a_next);
 
 /// Applies the rotational part of Newton's correction of each unreduced body as
 /// a finite rotation, without strain: a linear one by theta stretches the body
@@ -39,7 +39,7 @@ bool predict_turns(const SystemModel& model, const SystemState& from,
 ///            theta = spread sum_i R y_i x d_i
 /// @param state at which the correction was computed
 /// @param correction of all unknowns; only nodes are changed
-void turn_corrections(const SystemModel& model, const SystemState& state,
-                      VectorX& correction);
+void rotate_corrections(const SystemModel& model, const SystemState& state,
+                        VectorX& correction);
 
 }  // namespace limber::dynamics

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guesses and corrections of unreduced bodies that rotate.
-#include "limber/dynamics/integrators/full_turn.hpp"
+#include "limber/dynamics/bodies/nodal_rotation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 #include "limber/dynamics/system/unknowns.hpp"
 #include "support/full_lattice.hpp"
 
-namespace limber::dynamics::full_turn_test {
+namespace limber::dynamics::nodal_rotation_test {
 namespace {
 
 const Vector3 kSpin(30.0, -10.0, 20.0);  // rad/s
 
 // A lattice that is bent far and spins as a rigid body.
-class FullTurn : public ::testing::Test {
+class NodalRotation : public ::testing::Test {
  protected:
-  FullTurn() {
+  NodalRotation() {
     calc_mean_frame(model_, full(), state_, frame_);
     auto udot = nodes_of(full(), state_.udot_H);
     for (Eigen::Index i = 0; i < udot.cols(); ++i) {
@@ -38,7 +38,7 @@ class FullTurn : public ::testing::Test {
   MeanFrame frame_;
 };
 
-TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
+TEST_F(NodalRotation, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
   const NewmarkStep step{.h = 1e-2, .lag = 0.2, .beta = 0.3};
   const Vector3 fall(1.0, -9.0, 4.0);
   VectorX uddot = make_unknowns(model_);
@@ -49,7 +49,7 @@ TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
   VectorX a = make_unknowns(model_);
   nodal_rows(model_, a) = testing::make_field(state_.u_H.size(), 5.0, 7);
   VectorX a_next = make_unknowns(model_);
-  ASSERT_TRUE(predict_turns(model_, state_, uddot, a, step, a_next));
+  ASSERT_TRUE(predict_rotations(model_, state_, uddot, a, step, a_next));
   const VectorX next = state_.u_H + step.h * state_.udot_H +
                        step.h * step.h *
                            (step.lag * nodal_rows(model_, a) +
@@ -64,15 +64,15 @@ TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
   }
 }
 
-TEST_F(FullTurn, DoesNotGuessForABodyThatHardlyRotates) {
+TEST_F(NodalRotation, DoesNotGuessForABodyThatHardlyRotates) {
   state_.udot_H *= 1e-4;
   const VectorX zero = make_unknowns(model_);
   VectorX a_next = zero;
   EXPECT_FALSE(
-      predict_turns(model_, state_, zero, zero, {1e-2, 0.2, 0.3}, a_next));
+      predict_rotations(model_, state_, zero, zero, {1e-2, 0.2, 0.3}, a_next));
 }
 
-TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
+TEST_F(NodalRotation, TurnsACorrectionWithoutStrain) {
   // A linear rotation about the frame's origin, and a translation.
   const Vector3 theta(0.2, 0.1, -0.3);
   const Vector3 shift(0.01, 0.02, 0.03);
@@ -81,7 +81,7 @@ TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
   for (Eigen::Index i = 0; i < correction.cols(); ++i) {
     correction.col(i) = shift + theta.cross(find_arm(i));
   }
-  turn_corrections(model_, state_, d);
+  rotate_corrections(model_, state_, d);
   const Matrix3 change = exp_rotation(theta) - Matrix3::Identity();
   for (Eigen::Index i = 0; i < correction.cols(); ++i) {
     EXPECT_LT((correction.col(i) - shift - change * find_arm(i)).norm(), 1e-12)
@@ -90,4 +90,4 @@ TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics::full_turn_test
+}  // namespace limber::dynamics::nodal_rotation_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Newton's method where elasticity couples modes: its dense block.
-#include "limber/dynamics/newton/coupled_modes.hpp"
+#include "limber/dynamics/bodies/coupled_modes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/newton/coupled_modes.hpp"
+#include "limber/dynamics/bodies/coupled_modes.hpp"
 
 namespace limber::dynamics {
 

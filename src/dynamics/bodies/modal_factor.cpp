@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/newton/body_factor.hpp"
+#include "limber/dynamics/bodies/modal_factor.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
@@ -24,7 +26,7 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
   }
 }
 
-BodyFactor::BodyFactor(const BodyModel& body)
+ModalFactor::ModalFactor(const BodyModel& body)
     : coupling_(Matrix3X::Zero(3, body.modes)),
       back_coupling_(Matrix3X::Zero(3, body.modes)) {
   if (!has_dense_modes(body)) {
@@ -36,8 +38,8 @@ BodyFactor::BodyFactor(const BodyModel& body)
   diagonal_ = VectorX::Zero(body.modes);
 }
 
-void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
-                              const Coefficients& c) {
+void ModalFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
+                               const TangentCoefficients& c) {
   if (!coupled_modes_) {
     const VectorX& lambda = *flexbody::find_eigenvalues(body.elasticity);
     inverse_modes_.array() =
@@ -62,11 +64,15 @@ void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
       body.name));
 }
 
-void BodyFactor::update(const BodyModel& body, const BodyTerms& terms,
-                        const Vector3& w, const Matrix3& T,
-                        const Coefficients& c) {
+bool ModalFactor::update(const SystemModel& model, std::size_t b,
+                         const SystemState& state, const SystemTerms& all_terms,
+                         const Matrix3& T, const TangentCoefficients& c,
+                         bool /*renews*/) {
+  const BodyModel& body = model.bodies[b];
+  const BodyTerms& terms = all_terms.bodies[b];
+  const Vector3& w = state.bodies[b].w_WB_B;
   update_modes(body, terms, c);
-  if (!body.has_rigid_motion()) return;  // its rigid blocks remain zero
+  if (!body.has_rigid_motion()) return false;  // its rigid blocks remain zero
   inverse_mass_ = 1.0 / (c.acceleration * body.mass);
   // The step's rotation changes by T times the increments at its end.
   const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
@@ -91,9 +97,23 @@ void BodyFactor::update(const BodyModel& body, const BodyTerms& terms,
     throw NumericalError(
         fmt::format("body '{}': its inertia has become singular", body.name));
   }
+  return false;
 }
 
-void BodyFactor::solve_coupled(double* x) {
+LinkEnd ModalFactor::make_end(const SystemModel& model, std::size_t b) const {
+  const BodyModel& body = model.bodies[b];
+  return {.row = body.row, .G = Matrix6X::Zero(6, 6 + body.modes)};
+}
+
+void ModalFactor::calc_rows(const SystemModel& model, std::size_t /*b*/,
+                            const SystemState& /*state*/,
+                            const SystemTerms& terms, const Matrix3& R_FW,
+                            LinkEnd& end) const {
+  const auto i = index(end.attachment);
+  calc_modal_jacobian(model.attachments[i], terms.attachments[i], R_FW, end.G);
+}
+
+void ModalFactor::solve_coupled(double* x) {
   Eigen::Map<Vector3> translation(x);
   Eigen::Map<Vector3> rotation(x + 3);
   Eigen::Map<VectorX> modes(x + 6, coupling_.cols());
@@ -105,7 +125,7 @@ void BodyFactor::solve_coupled(double* x) {
   modes.noalias() -= answer_ * turned;
 }
 
-void BodyFactor::solve(double* x) {
+void ModalFactor::solve(double* x) {
   if (coupled_modes_) {
     solve_coupled(x);
     return;
@@ -126,7 +146,8 @@ void BodyFactor::solve(double* x) {
   }
 }
 
-void BodyFactor::solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const {
+void ModalFactor::solve_coupled_rows(const Matrix6X& G,
+                                     Matrix6X& result) const {
   const Eigen::Index m = coupling_.cols();
   result.leftCols<3>() = inverse_mass_ * G.leftCols<3>();
   coupled_modes_->solve_rows(G.rightCols(m), result.rightCols(m));
@@ -143,7 +164,7 @@ void BodyFactor::solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const {
 }
 
 // A row of G at a time, through D's arrow shape.
-void BodyFactor::solve_rows(const Matrix6X& G, Matrix6X& result) const {
+void ModalFactor::solve_rows(const Matrix6X& G, Matrix6X& result) const {
   if (coupled_modes_) {
     solve_coupled_rows(G, result);
     return;
@@ -163,7 +184,7 @@ void BodyFactor::solve_rows(const Matrix6X& G, Matrix6X& result) const {
 }
 
 // Six modes by six, with the identity where there are none.
-Matrix6 BodyFactor::modal_block(int row, int column) const {
+Matrix6 ModalFactor::modal_block(int row, int column) const {
   const Eigen::Index modes = coupling_.cols();
   const Eigen::Index i = Eigen::Index{6} * row - 6;
   const Eigen::Index j = Eigen::Index{6} * column - 6;
@@ -180,7 +201,7 @@ Matrix6 BodyFactor::modal_block(int row, int column) const {
   return D;
 }
 
-Matrix6 BodyFactor::block(int row, int column) const {
+Matrix6 ModalFactor::block(int row, int column) const {
   if (row > 0 && column > 0) return modal_block(row, column);
   const Eigen::Index modes = coupling_.cols();
   const auto first_mode = [](int i) { return Eigen::Index{6} * i - 6; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/full_turn.hpp"
+#include "limber/dynamics/bodies/nodal_rotation.hpp"
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -9,9 +9,9 @@ namespace {
 
 // Displacements at the end; returns false and writes nothing for a body that
 // hardly rotates.
-bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
-                          const SystemState& from, const ConstNodes& uddot,
-                          double h, double s, Nodes u_H) {
+bool predict_rotated_nodes(const SystemModel& model, const FullModel& full,
+                           const SystemState& from, const ConstNodes& uddot,
+                           double h, double s, Nodes u_H) {
   constexpr double kLeastTurn = 0.01;  // [rad]
   MeanFrame frame;
   calc_mean_frame(model, full, from, frame);
@@ -42,8 +42,8 @@ bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
   return true;
 }
 
-void turn_correction(const SystemModel& model, const FullModel& full,
-                     const SystemState& state, Nodes d_H) {
+void rotate_correction(const SystemModel& model, const FullModel& full,
+                       const SystemState& state, Nodes d_H) {
   constexpr double kLeastTurn = 1e-8;  // its square is round-off [rad]
   MeanFrame frame;
   calc_mean_frame(model, full, state, frame);
@@ -63,16 +63,16 @@ void turn_correction(const SystemModel& model, const FullModel& full,
 
 }  // namespace
 
-bool predict_turns(const SystemModel& model, const SystemState& from,
-                   const VectorX& accelerations, const VectorX& a,
-                   const NewmarkStep& step, VectorX& a_next) {
+bool predict_rotations(const SystemModel& model, const SystemState& from,
+                       const VectorX& accelerations, const VectorX& a,
+                       const NewmarkStep& step, VectorX& a_next) {
   const auto [h, lag, beta] = step;
   bool turns = false;
   for (const FullModel& full : model.full_bodies) {
     Nodes next = nodal_rows(model, full, a_next);
-    if (!predict_turned_nodes(model, full, from,
-                              nodal_rows(model, full, accelerations), h,
-                              lag + beta, next)) {
+    if (!predict_rotated_nodes(model, full, from,
+                               nodal_rows(model, full, accelerations), h,
+                               lag + beta, next)) {
       continue;
     }
     next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
@@ -83,11 +83,11 @@ bool predict_turns(const SystemModel& model, const SystemState& from,
   return turns;
 }
 
-void turn_corrections(const SystemModel& model, const SystemState& state,
-                      VectorX& correction) {
+void rotate_corrections(const SystemModel& model, const SystemState& state,
+                        VectorX& correction) {
   for (const FullModel& full : model.full_bodies) {
     if (model.bodies[static_cast<std::size_t>(full.body)].clamped) continue;
-    turn_correction(model, full, state, nodal_rows(model, full, correction));
+    rotate_correction(model, full, state, nodal_rows(model, full, correction));
   }
 }
 

@@ -3,9 +3,10 @@
 
 #include <optional>
 
+#include "limber/dynamics/bodies/coupled_modes.hpp"
+#include "limber/dynamics/bodies/link_end.hpp"
+#include "limber/dynamics/bodies/tangent_coefficients.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
-#include "limber/dynamics/newton/coupled_modes.hpp"
-#include "limber/dynamics/newton/full_factor.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -25,21 +26,31 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
 ///            BodyTerms::maxwell_stiffness,
 ///            S = (c J + v (w x J - (J w) x)) T; c, v: derivatives of
 ///            acceleration and velocity at the step's end, T: of the step's
-///            rotation; to a diagonal K Coefficients::calming is added
-class BodyFactor {
+///            rotation; to a diagonal K TangentCoefficients::calming is added
+class ModalFactor {
  public:
-  using Coefficients = FullFactor::Coefficients;
+  explicit ModalFactor(const BodyModel& body);
 
-  explicit BodyFactor(const BodyModel& body);
+  /// As BodyFactor.
+  bool update(const SystemModel& model, std::size_t b, const SystemState& state,
+              const SystemTerms& terms, const Matrix3& T,
+              const TangentCoefficients& c, bool renews);
+  [[nodiscard]] LinkEnd make_end(const SystemModel& model, std::size_t b) const;
+  void renew_end(const SystemModel&, std::size_t, const SystemTerms&,
+                 LinkEnd&) const {}
+  void calc_rows(const SystemModel& model, std::size_t b,
+                 const SystemState& state, const SystemTerms& terms,
+                 const Matrix3& R_FW, LinkEnd& end) const;
+  template <typename Finish>
+  void solve_end(const SystemModel&, std::size_t, const SystemState&,
+                 const Matrix3&, const Finish&, LinkEnd& end) const {
+    solve_rows(end.G, end.Zt);
+  }
+  void solve(const SystemModel& model, std::size_t b, const SystemTerms&,
+             VectorX& x) {
+    solve(x.data() + model.bodies[b].row);
+  }
 
-  /// @param terms with the stiffness of modes that elasticity couples
-  /// @param w angular velocity, body frame [rad/s]
-  /// @throws NumericalError naming the body.
-  void update(const BodyModel& body, const BodyTerms& terms, const Vector3& w,
-              const Matrix3& T, const Coefficients& c);
-
-  /// x := D^-1 x, 6 + modes numbers; 0 for rigid motion if the body has none.
-  void solve(double* x);
   /// Rows of the result: D^-1 times the rows of G, each 6 + modes long.
   void solve_rows(const Matrix6X& G, Matrix6X& result) const;
 
@@ -52,7 +63,8 @@ class BodyFactor {
 
  private:
   void update_modes(const BodyModel& body, const BodyTerms& terms,
-                    const Coefficients& c);
+                    const TangentCoefficients& c);
+  void solve(double* x);
   void solve_coupled(double* x);
   void solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const;
   [[nodiscard]] Matrix6 modal_block(int row, int column) const;
