@@ -6,7 +6,7 @@
 #   python    the Python module (python/CMakeLists.txt)
 include(CMakePackageConfigHelpers)
 
-set(layers common flexbody joints contact dynamics results scene)
+set(layers common flexbody joints contact dynamics results scene runs)
 
 # limber::limber: everything that is free of the GPL. Programs that reduce
 # meshes ask for limber::reduction by name.
@@ -51,6 +51,7 @@ set(public_headers
   results/motion_error.hpp
   results/probes_csv.hpp
   results/results_file.hpp
+  runs/run.hpp
   scene/build/build_system.hpp
   scene/build/load_scene.hpp)
 if(LIMBER_REDUCTION)

@@ -74,8 +74,8 @@ class Study {
       signal.shaper =
           joints::make_shaper(*kind, frequency_ / ratio, kDampingRatio);
     }
-    const app::Run run =
-        app::simulate_scene(scene, app::make_reducer({}), cache_, {});
+    const runs::Run run = runs::simulate_scene(
+        scene, {.reductions = app::make_reductions(cache_, {})});
     if (run.failure) std::rethrow_exception(run.failure);
     return measure(run.history, signal);
   }

@@ -7,7 +7,7 @@
 #include <array>
 #include <limits>
 
-#include "limber/app/reports/levels.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/results/charts/trade_picture.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
@@ -135,7 +135,8 @@ Verdict judge_advice(const Study& study, const Choice& base) {
   scene::Scene scene = scene::load_scene(study.file());
   if (base.change) base.change(scene);
   const auto& bodies = runs.back().run.built.model.bodies;
-  for (const app::BodyLevel& level : app::advise_scene(scene, study.cache())) {
+  for (const runs::BodyLevel& level :
+       app::advise(scene, study.cache(), {}).levels) {
     LinkVerdict link{.link = level.name,
                      .neglected = level.limits.displacement,
                      .advised = level.advice.level,

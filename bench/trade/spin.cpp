@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "beam_choices.hpp"
-#include "limber/app/reports/levels.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "sections.hpp"
 
@@ -102,7 +102,7 @@ Point study_rate(double rate, const Context& context) {
   point.neo_hookean = other.error ? other.deformation() : kNone;
   scene::Scene scene = scene::load_scene(study.file());
   spin_at(rate)(scene);
-  point.advised = app::advise_scene(scene, context.cache)[0].advice.level;
+  point.advised = app::advise(scene, context.cache, {}).levels[0].advice.level;
   return point;
 }
 

@@ -62,7 +62,7 @@ double time_nodes(const Outcome& outcome) {
 }
 
 void find_cost(Outcome& outcome) {
-  const app::Run& run = outcome.run;
+  const runs::Run& run = outcome.run;
   double least = run.statistics.seconds;
   double total = least;
   double nodes = time_nodes(outcome);
@@ -71,7 +71,7 @@ void find_cost(Outcome& outcome) {
     return total >= app::kEnough;
   };
   for (int count = 1; !is_enough(count); ++count) {
-    const double seconds = app::repeat_timing(run, {});
+    const double seconds = runs::repeat_timing(run, {});
     least = std::min(least, seconds);
     total += seconds;
     if (count < 10) nodes = std::min(nodes, time_nodes(outcome));
@@ -133,7 +133,8 @@ Outcome Study::simulate(const Choice& choice) const {
   const scene::Reducer reducer = app::time_reductions(
       app::make_reducer({}),
       [&](const std::string&, double seconds) { outcome.offline += seconds; });
-  outcome.run = app::simulate_scene(load(file_, choice), reducer, cache_, {});
+  outcome.run = runs::simulate_scene(load(file_, choice),
+                                     {.reductions = {reducer, cache_}});
   if (outcome.run.failure) {
     outcome.stopped = find_reason(outcome.run.failure);
     return outcome;

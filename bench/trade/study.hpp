@@ -38,7 +38,7 @@ struct Choice {
 /// One run, its cost and its error relative to the reference.
 struct Outcome {
   Choice choice;
-  app::Run run;
+  runs::Run run;
   double online = 0.0;  ///< wall time per simulated time, the least found [-]
   /// The same with the displacements of all nodes at all outputs [-].
   double with_nodes = 0.0;

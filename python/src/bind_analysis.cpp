@@ -4,9 +4,10 @@
 #include "arrays.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/explanation.hpp"
 #include "limber/app/reports/frequency_report.hpp"
-#include "limber/app/reports/levels.hpp"
+#include "limber/app/reports/level_report.hpp"
 #include "limber/app/run/scene_check.hpp"
 #include "limber/app/run/static_run.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -51,10 +52,9 @@ py::object find_frequencies(const scene::Scene& scene, int count,
 }
 
 py::object advise(const scene::Scene& scene, const fs::path& cache) {
-  const app::SceneAdvice advice = run_alone([&](const Progress& watch) {
-    return app::advise_scene(scene, cache, watch);
-  });
-  return to_python(to_json(advice));
+  const runs::SceneAdvice advice = run_alone(
+      [&](const Progress& watch) { return app::advise(scene, cache, watch); });
+  return to_python(app::to_json(advice));
 }
 
 py::object check(const scene::Scene& scene, const fs::path& cache) {

@@ -7,12 +7,12 @@
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/describe.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/length_unit.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/runs/library_lock.hpp"
 
 namespace limber::python {
 namespace {
@@ -81,7 +81,7 @@ py::tuple reduce(const py::dict& wish) {
   std::vector<std::string> notices;
   {
     const py::gil_scoped_release release;
-    const auto lock = app::lock_libraries();
+    const auto lock = runs::lock_libraries();
     const flexbody::MeshAtHand mesh =
         app::make_reducer(watch).make_mesh(recipe.mesh);
     body = std::make_shared<ReducedBody>(mesh.reduce(recipe));
@@ -94,13 +94,13 @@ py::tuple reduce(const py::dict& wish) {
 
 BodyPointer read_body(const fs::path& file) {
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   return std::make_shared<ReducedBody>(flexbody::read_body(file));
 }
 
 void save(const ReducedBody& body, const fs::path& file) {
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   flexbody::write_body(body, file);
 }
 

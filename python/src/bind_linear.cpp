@@ -77,7 +77,7 @@ py::list list_signals(const Signals& signals) {
 
 void save_linear_model(const LinearRun& run, const fs::path& file) {
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   results::check_linear_model_ending(file);
   results::write_linear_model(file, run.record);
 }

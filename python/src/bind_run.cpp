@@ -4,11 +4,11 @@
 
 #include "arrays.hpp"
 #include "json.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/view_page.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/library_lock.hpp"
 #include "limber/view/page.hpp"
 #include "recorded_run.hpp"
 
@@ -127,11 +127,11 @@ std::vector<std::string> list_bodies(const RecordedRun& run) {
 }
 
 std::vector<std::string> list_warnings(const RecordedRun& recorded) {
-  const app::Run& run = recorded.run;
+  const runs::Run& run = recorded.run;
   std::vector<std::string> texts = run.built.warnings;
-  const auto levels = app::find_level_warnings(run.levels);
+  const auto levels = runs::find_level_warnings(run.levels);
   for (const auto& more :
-       {run.statistics.warnings, run.printed_warnings, levels}) {
+       {run.statistics.warnings, run.given_warnings, levels}) {
     texts.insert(texts.end(), more.begin(), more.end());
   }
   return texts;
@@ -152,20 +152,20 @@ py::object describe_failure(const RecordedRun& recorded) {
 void save_run(const RecordedRun& run, const fs::path& folder, bool pictures,
               bool xdmf) {
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   const app::OutputFolder out(folder);
   out.write([&](const fs::path& place) {
     if (run.write) return run.write(place, xdmf);
-    write_run(run.run, place, xdmf);
+    app::write_run(run.run, place, xdmf);
   });
   if (pictures && !run.run.history.states.empty()) {
-    out.add([&](const fs::path& place) { draw_run(run.run, place); });
+    out.add([&](const fs::path& place) { app::draw_run(run.run, place); });
   }
 }
 
 void write_page(const fs::path& page, const std::vector<fs::path>& results) {
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   view::write_page(page, app::read_recordings(results));
 }
 
@@ -188,9 +188,10 @@ void bind_run(py::module_& m) {
       .def("body", &get_body)
       .def_property_readonly("events", &list_events)
       .def_property_readonly("warnings", &list_warnings)
-      .def_property_readonly(
-          "summary",
-          [](const RecordedRun& run) { return to_python(summarize(run.run)); })
+      .def_property_readonly("summary",
+                             [](const RecordedRun& run) {
+                               return to_python(app::summarize(run.run));
+                             })
       .def_property_readonly("failure", &describe_failure)
       .def_property_readonly("cause",
                              [](const RecordedRun& run) { return run.cause; })

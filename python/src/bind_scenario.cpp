@@ -7,12 +7,12 @@
 #include "json.hpp"
 #include "limber/app/errors/error_runs.hpp"
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/run/library_lock.hpp"
-#include "limber/app/run/run_scenery.hpp"
 #include "limber/app/run/unstable_loop.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/library_lock.hpp"
+#include "limber/runs/pictured_scene.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/control/measured_probe.hpp"
 #include "python_controller.hpp"
@@ -34,7 +34,7 @@ scene::Scene load(const fs::path& file, const Settings& settings,
   }
   if (fidelity) overrides.fidelity = dynamics::parse_fidelity(*fidelity);
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   return scene::load_scene(file, overrides);
 }
 
@@ -120,11 +120,14 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
   auto recorded = std::make_shared<RecordedRun>();
   {
     const py::gil_scoped_release release;
-    app::PicturedScene made;
+    runs::RunOptions options;
+    options.reductions = app::make_reductions(cache, watch);
+    options.progress = watch;
+    options.judges_levels = judges;
+    runs::PicturedScene made;
     {
-      const auto lock = app::lock_libraries();
-      made = app::build_pictured(scene, app::make_reducer(watch), cache,
-                                 app::make_full_maker(watch));
+      const auto lock = runs::lock_libraries();
+      made = runs::build_pictured(scene, options.reductions);
     }
     for (const GivenLaw& law : given) {
       check_period(law);
@@ -133,8 +136,7 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
     if (auto unstable = app::find_unstable_loop(scene, made.built)) {
       made.built.warnings.push_back(std::move(*unstable));
     }
-    recorded->run = app::simulate_pictured(scene, std::move(made), cache, watch,
-                                           {}, judges);
+    recorded->run = runs::simulate_pictured(scene, std::move(made), options);
     const bool is_asked =
         errors || (scene.scenario.output.errors && given.empty());
     if (is_asked && !recorded->run.failure) {

@@ -53,7 +53,9 @@ std::shared_ptr<RecordedRun> simulate(const SystemModel& model,
     built.settings = settings;
     built.probes = probes;
     for (scene::Probe& probe : built.probes) set_start(probe, model, start);
-    recorded->run = app::simulate_built({}, std::move(built), {}, watch);
+    runs::RunOptions options;
+    options.progress = watch;
+    recorded->run = runs::simulate_built({}, std::move(built), options);
   }
   recorded->cause = take_cause();
   return recorded;

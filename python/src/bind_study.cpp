@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "interruption.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/app/study/study_file.hpp"
 #include "limber/app/study/study_reader.hpp"
 #include "limber/app/study/study_runner.hpp"
@@ -12,6 +11,7 @@
 #include "limber/app/study/study_worker.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/library_lock.hpp"
 #include "recorded_run.hpp"
 
 namespace limber::python {
@@ -62,7 +62,7 @@ class StudyPlan {
   void prepare() {
     const std::lock_guard once(base_mutex_);
     if (worker_) return;
-    const auto lock = app::lock_libraries();
+    const auto lock = runs::lock_libraries();
     const app::StudyBase base = make_base(study_, design_, cache_);
     manifest_ = base.manifest;
     worker_ = std::make_unique<app::StudyWorker>(

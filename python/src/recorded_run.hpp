@@ -17,7 +17,7 @@ struct RecordedRun {
   using Block =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  app::Run run;
+  runs::Run run;
   py::object cause = py::none();  ///< what Python code raised and ended it
   /// Writes its files where they are not those of a run (app::write_run).
   std::function<void(const std::filesystem::path& folder, bool xdmf)> write;

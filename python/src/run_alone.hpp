@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interruption.hpp"
-#include "limber/app/run/library_lock.hpp"
+#include "limber/runs/library_lock.hpp"
 
 namespace limber::python {
 
@@ -13,7 +13,7 @@ auto run_alone(const Work& work) {
   clear_cause();
   const Progress watch = make_watch(py::none());
   const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
+  const auto lock = runs::lock_libraries();
   return work(watch);
 }
 

@@ -11,9 +11,9 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/verifier/stiffening_report.hpp"
@@ -44,7 +44,7 @@ scene::BuiltScene build(const scene::Scene& scene,
                         const VerifyOptions& options) {
   scene::BuiltScene built = scene::build_system(
       scene, make_reducer(make_progress_bar()), options.cache);
-  warn_of_unused_cache(options.cache, built);
+  runs::warn_of_unused_cache(options.cache, built);
   clear_progress_bar();
   print_warnings(built.warnings);
   return built;

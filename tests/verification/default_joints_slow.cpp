@@ -31,8 +31,9 @@ const fs::path& cache() {
   return folder.path();
 }
 
-app::Run simulate(const scene::Scene& scene) {
-  app::Run run = app::simulate_scene(scene, app::make_reducer({}), cache(), {});
+runs::Run simulate(const scene::Scene& scene) {
+  runs::Run run = runs::simulate_scene(
+      scene, {.reductions = app::make_reductions(cache(), {})});
   EXPECT_FALSE(run.failure);
   return run;
 }
@@ -61,7 +62,7 @@ TEST(DefaultJoints, BendLeesFrameByNoMoreThanAPercent) {
 }
 
 TEST(DefaultJoints, ReturnARigidBarFromAStopWithItsRestitution) {
-  const app::Run run = simulate(scene::load_scene(kScenes / "stop.toml"));
+  const runs::Run run = simulate(scene::load_scene(kScenes / "stop.toml"));
   EXPECT_NEAR(run.history.probe_rows.back().at(0), -0.6, 0.006);
   EXPECT_THAT(run.statistics.warnings, ::testing::IsEmpty());
 }
@@ -103,7 +104,7 @@ void scale_defaults(const scene::BuiltScene& built, double factor,
 }
 
 /// Largest absolute value of each column of the probes.
-std::vector<double> find_peaks(const app::Run& run) {
+std::vector<double> find_peaks(const runs::Run& run) {
   std::vector<double> peaks;
   for (const auto& peak : run.record.peaks)
     peaks.push_back(std::abs(peak.value));
@@ -117,7 +118,7 @@ std::string find_probe(const results::ProbeColumn& column) {
 
 /// A hundredth of the largest peak of the same probe in the same unit:
 /// components that are next to nothing have no accuracy of their own.
-double find_allowed(const app::Run& run, const std::vector<double>& peaks,
+double find_allowed(const runs::Run& run, const std::vector<double>& peaks,
                     std::size_t column) {
   const auto& columns = run.history.columns;
   double largest = 0.0;
@@ -134,7 +135,7 @@ class DefaultStiffness : public ::testing::TestWithParam<fs::path> {};
 
 TEST_P(DefaultStiffness, HalvedOrDoubledChangesNoPeakByMoreThanAPercent) {
   const scene::Scene scene = scene::load_scene(GetParam());
-  const app::Run run = simulate(scene);
+  const runs::Run run = simulate(scene);
   const std::vector<double> peaks = find_peaks(run);
   ASSERT_FALSE(peaks.empty());
   for (const double factor : {0.5, 2.0}) {

@@ -71,8 +71,8 @@ struct Audit {
 
 Audit audit(const scene::Scene& scene) {
   static const results::test::TemporaryFolder cache;  // reduces once
-  const app::Run run =
-      app::simulate_scene(scene, app::make_reducer({}), cache.path(), {});
+  const runs::Run run = runs::simulate_scene(
+      scene, {.reductions = app::make_reductions(cache.path(), {})});
   EXPECT_FALSE(run.failure);
   const auto& events = run.history.events;
   const dynamics::EnergyRecord& energy = run.record.energy;

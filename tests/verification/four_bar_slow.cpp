@@ -57,8 +57,8 @@ scene::Scene load(Fidelity level, double stiffness) {
 
 results::History simulate(const scene::Scene& scene) {
   static const results::test::TemporaryFolder cache;  // reduces once
-  app::Run run =
-      app::simulate_scene(scene, app::make_reducer({}), cache.path(), {});
+  runs::Run run = runs::simulate_scene(
+      scene, {.reductions = app::make_reductions(cache.path(), {})});
   EXPECT_FALSE(run.failure);
   return std::move(run.history);
 }

@@ -51,8 +51,8 @@ class Slew : public ::testing::Test {
   /// How far a column moves from a time on, peak to peak.
   static double find_swing(const scene::Scene& scene, const std::string& name,
                            double from) {
-    const app::Run run =
-        app::simulate_scene(scene, app::make_reducer({}), cache(), {});
+    const runs::Run run = runs::simulate_scene(
+        scene, {.reductions = app::make_reductions(cache(), {})});
     EXPECT_FALSE(run.failure);
     const auto& columns = run.history.columns;
     const auto column =

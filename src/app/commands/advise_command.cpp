@@ -15,7 +15,7 @@
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
-#include "limber/app/reports/levels.hpp"
+#include "limber/app/reports/level_report.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/charts/level_picture.hpp"
@@ -48,9 +48,9 @@ scene::Scene load_advise_scene(const AdviseOptions& options) {
 }
 
 void write_picture(const std::filesystem::path& file, const std::string& title,
-                   const std::vector<BodyLevel>& levels) {
+                   const std::vector<runs::BodyLevel>& levels) {
   std::vector<results::RotationTrack> tracks;
-  for (const BodyLevel& level : levels) {
+  for (const runs::BodyLevel& level : levels) {
     tracks.push_back({level.name, level.reduced, level.limits.displacement,
                       level.limits.linear_limit, level.track});
   }
@@ -63,8 +63,8 @@ void advise(const AdviseOptions& options) {
   const scene::Scene scene = load_advise_scene(options);
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name + "-advise"));
-  const SceneAdvice advice =
-      advise_scene(scene, options.cache, make_progress_bar());
+  const runs::SceneAdvice advice =
+      app::advise(scene, options.cache, make_progress_bar());
   clear_progress_bar();
   print_more_notes(scene, advice.notes);
   print_warnings(advice.warnings);
@@ -80,7 +80,7 @@ void advise(const AdviseOptions& options) {
     fmt::print("{}\n", to_text(json));
     return;
   }
-  for (const BodyLevel& level : advice.levels) {
+  for (const runs::BodyLevel& level : advice.levels) {
     fmt::print("{}\n", to_text(level));
   }
   fmt::print("{}\nresults in {}\n", to_fidelity_table(advice.levels),

@@ -58,14 +58,14 @@ StudiedRun find_run(const RunOptions& options) {
   return find_studied_run(options.from);
 }
 
-void estimate_errors(Run& run, const std::string& cache) {
+void estimate_errors(runs::Run& run, const std::string& cache) {
   try {
-    add_errors(run,
-               estimate_errors(run, cache, watch_signals(make_progress_bar())));
+    add_errors(run, app::estimate_errors(run, cache,
+                                         watch_signals(make_progress_bar())));
   } catch (const std::exception& error) {
-    run.printed_warnings.push_back(
+    run.given_warnings.push_back(
         fmt::format("errors are not known: {}", error.what()));
-    print_warnings({run.printed_warnings.back()});
+    print_warnings({run.given_warnings.back()});
   }
   clear_progress_bar();
 }
@@ -88,18 +88,18 @@ void run_scenario(const RunOptions& options) {
   if (!name.empty()) scene.scenario.name = name;
   const OutputFolder folder(find_run_folder(options, scene.scenario));
   DeferredSignals signals;
-  const CheckpointPlan checkpoints = {
+  const runs::CheckpointPlan checkpoints = {
       folder.path() / "checkpoint.bin",
       options.checkpoint_interval.value_or(
           scene.scenario.output.checkpoint_interval),
-      options.resumes, &signals};
-  Run result = run_scene(scene, options.cache, checkpoints);
+      options.resumes};
+  runs::Run result = run_scene(scene, options.cache, checkpoints, &signals);
   if (options.checkpoint_interval && result.statistics.steps == 0 &&
       !result.failure) {
-    result.printed_warnings.emplace_back(
+    result.given_warnings.emplace_back(
         "--checkpoint-interval changes nothing: the run took no steps, all of "
         "it is known in closed form");
-    print_warnings({result.printed_warnings.back()});
+    print_warnings({result.given_warnings.back()});
   }
   if ((options.errors || scene.scenario.output.errors) && !result.failure) {
     estimate_errors(result, options.cache);

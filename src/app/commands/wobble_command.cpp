@@ -126,9 +126,7 @@ void wobble(const WobbleOptions& options) {
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name));
   DeferredSignals signals;
-  CheckpointPlan none;
-  none.signals = &signals;
-  const Run result = run_scene(scene, options.cache, none);
+  const runs::Run result = run_scene(scene, options.cache, {}, &signals);
   folder.write([&](const std::filesystem::path& place) {
     write_run(result, place, options.xdmf);
   });

@@ -10,10 +10,10 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/energy_error.hpp"
+#include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 
@@ -69,7 +69,7 @@ class Runner {
     Comparison comparison;
     comparison.scenario = settings_.scenario;
     comparison.reference_note = describe_default_reference(plan_);
-    const Run reference = simulate(plan_.reference);
+    const runs::Run reference = simulate(plan_.reference);
     keep(plan_.reference, reference);
     if (reference.failure) std::rethrow_exception(reference.failure);
     comparison.reference = assess(plan_.reference, reference, reference);
@@ -81,9 +81,9 @@ class Runner {
   }
 
  private:
-  ComparedRun compare(const Choice& choice, const Run& reference) {
+  ComparedRun compare(const Choice& choice, const runs::Run& reference) {
     try {
-      const Run run = simulate(choice);
+      const runs::Run run = simulate(choice);
       keep(choice, run);
       return assess(choice, run, reference);
     } catch (const NumericalError& error) {
@@ -96,7 +96,7 @@ class Runner {
     }
   }
 
-  Run simulate(const Choice& choice) {
+  runs::Run simulate(const Choice& choice) {
     scene::Overrides overrides = to_overrides(choice, settings_.settings);
     overrides.rows = flexbody::KeptRows{flexbody::KeptRows::Extent::all, {}};
     scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
@@ -111,13 +111,15 @@ class Runner {
       report(settings_.watch, what, fraction);
       report_run(what, cost, fraction);
     };
-    PicturedScene made =
-        build_pictured(scene, make_timed_reducer(progress), settings_.cache,
-                       make_full_maker(progress));
-    warn_of_unused_cache(settings_.cache, made.built);
+    runs::RunOptions options;
+    options.reductions = {make_timed_reducer(progress), settings_.cache,
+                          make_full_maker(progress)};
+    options.progress = progress;
+    options.judges_levels = settings_.keep_runs;
+    runs::PicturedScene made = runs::build_pictured(scene, options.reductions);
+    runs::warn_of_unused_cache(settings_.cache, made.built);
     made.built.settings.tolerance *= choice.tolerance_share;
-    Run run = simulate_pictured(scene, std::move(made), settings_.cache,
-                                progress, {}, settings_.keep_runs);
+    runs::Run run = runs::simulate_pictured(scene, std::move(made), options);
     done_ += cost;
     clear_progress_bar();
     note(scene, run.built.notes);
@@ -174,7 +176,7 @@ class Runner {
     }
   }
 
-  void keep(const Choice& choice, const Run& run) const {
+  void keep(const Choice& choice, const runs::Run& run) const {
     if (!settings_.keep_runs) return;
     const std::string name = make_folder_name(choice);
     const bool is_reference = choice == plan_.reference;
@@ -186,8 +188,8 @@ class Runner {
     });
   }
 
-  ComparedRun assess(const Choice& choice, const Run& run,
-                     const Run& reference) const {
+  ComparedRun assess(const Choice& choice, const runs::Run& run,
+                     const runs::Run& reference) const {
     ComparedRun result;
     result.choice = choice;
     result.cost = find_cost(run);
@@ -208,7 +210,7 @@ class Runner {
     return result;
   }
 
-  Cost find_cost(const Run& run) const {
+  Cost find_cost(const runs::Run& run) const {
     Cost cost;
     cost.steps = run.statistics.steps;
     cost.newton_iterations = run.statistics.newton_iterations;
@@ -224,7 +226,7 @@ class Runner {
     while (!run.failure && !is_enough()) {
       const int again = cost.repeats;
       const double seconds =
-          repeat_timing(run, [&](std::string_view what, double fraction) {
+          runs::repeat_timing(run, [&](std::string_view what, double fraction) {
             report(settings_.watch, what, fraction);
             report_repeat(again, fraction);
           });
@@ -237,7 +239,7 @@ class Runner {
   }
 
   /// Counts each distinct body once.
-  std::optional<double> find_offline(const Run& run) const {
+  std::optional<double> find_offline(const runs::Run& run) const {
     std::set<std::string> keys;
     for (const dynamics::BodyModel& body : run.built.model.bodies) {
       if (body.reduced) keys.insert(body.reduced->content_key);

@@ -45,7 +45,7 @@ bool is_geometry(const std::filesystem::path& file) {
 
 /// The longest step that a run of fixed steps takes: outputs divide the time,
 /// and each part is divided evenly; explicit schemes stay stable.
-double find_step_taken(const Run& run) {
+double find_step_taken(const runs::Run& run) {
   const dynamics::SimulationSettings& settings = run.built.settings;
   double step = settings.step;
   for (const dynamics::StepChange& change : settings.step_changes) {
@@ -70,7 +70,8 @@ double find_step_taken(const Run& run) {
 
 class Finder {
  public:
-  explicit Finder(const Run& run) : run_(run), scenario_(run.scene.scenario) {}
+  explicit Finder(const runs::Run& run)
+      : run_(run), scenario_(run.scene.scenario) {}
 
   ErrorCauses find() {
     add_step();
@@ -226,14 +227,16 @@ class Finder {
         2.0 * run_.built.settings.impact_steps, kSecondOrder);
   }
 
-  const Run& run_;
+  const runs::Run& run_;
   const scene::Scenario& scenario_;
   ErrorCauses found_;
 };
 
 }  // namespace
 
-ErrorCauses find_error_causes(const Run& run) { return Finder(run).find(); }
+ErrorCauses find_error_causes(const runs::Run& run) {
+  return Finder(run).find();
+}
 
 std::optional<ErrorCause> join_causes(const std::vector<ErrorCause>& causes) {
   ErrorCause all{"all", "all but the level", {}, 1.0};

@@ -32,7 +32,7 @@ struct ErrorCauses {
 /// is 4/3 of the difference (Richardson 1911), and of first order twice; a mesh
 /// 1.5 times as fine leaves 4/9 of one of second order. Of modes and levels the
 /// difference itself counts, of modes half as much again for those after them.
-[[nodiscard]] ErrorCauses find_error_causes(const Run& run);
+[[nodiscard]] ErrorCauses find_error_causes(const runs::Run& run);
 
 /// All of them in one run, but the level, whose cost the others multiply; none
 /// if there are fewer than two.

@@ -15,17 +15,17 @@
 
 #include "limber/app/errors/error_causes.hpp"
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/library_lock.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
 
-ColumnValues take_column(const Run& run, std::size_t c) {
-  ColumnValues values;
+runs::ColumnValues take_column(const runs::Run& run, std::size_t c) {
+  runs::ColumnValues values;
   if (c < run.record.peaks.size()) values.peak = run.record.peaks[c].value;
   for (const std::vector<double>& row : run.history.probe_rows) {
     values.curve.push_back(row[c]);
@@ -34,9 +34,9 @@ ColumnValues take_column(const Run& run, std::size_t c) {
 }
 
 /// Columns of these names; none if one is missing.
-std::vector<ColumnValues> take_columns(const Run& run,
-                                       const std::vector<std::string>& names) {
-  std::vector<ColumnValues> columns;
+std::vector<runs::ColumnValues> take_columns(
+    const runs::Run& run, const std::vector<std::string>& names) {
+  std::vector<runs::ColumnValues> columns;
   for (const std::string& name : names) {
     const auto found = std::find_if(
         run.history.columns.begin(), run.history.columns.end(),
@@ -64,14 +64,14 @@ std::string try_to(const std::function<void()>& work) {
 
 /// A scene that is ready to run, or why not.
 struct Made {
-  ErrorRun run;
+  runs::ErrorRun run;
   scene::Scene scene;
   std::optional<scene::BuiltScene> built;
 };
 
 class Estimator {
  public:
-  Estimator(const Run& own, const std::filesystem::path& cache,
+  Estimator(const runs::Run& own, const std::filesystem::path& cache,
             const Progress& progress)
       : own_(own), cache_(cache), progress_(progress) {
     for (const results::ProbeColumn& column : own_.history.columns) {
@@ -80,25 +80,25 @@ class Estimator {
     }
   }
 
-  ErrorTable estimate() {
+  runs::ErrorTable estimate() {
     ErrorCauses found = find_error_causes(own_);
     const std::size_t count = found.causes.size();
     std::vector<Made> all;
     {
-      const auto lock = lock_libraries();
+      const auto lock = runs::lock_libraries();
       for (const ErrorCause& cause : found.causes) all.push_back(make(cause));
       if (const auto joined = join_causes(found.causes)) {
         all.push_back(make(*joined));
       }
     }
     run_all(all);
-    std::optional<ErrorRun> together;
+    std::optional<runs::ErrorRun> together;
     if (all.size() > count) together = std::move(all.back().run);
-    std::vector<ErrorRun> runs;
+    std::vector<runs::ErrorRun> runs;
     for (std::size_t i = 0; i < count; ++i) {
       runs.push_back(std::move(all[i].run));
     }
-    ErrorTable table = compare_causes(
+    runs::ErrorTable table = runs::compare_causes(
         names_, units_, take_columns(own_, names_), std::move(runs), together);
     table.unknown.insert(table.unknown.end(), found.unknown.begin(),
                          found.unknown.end());
@@ -160,13 +160,13 @@ class Estimator {
   void simulate(std::size_t index, Made& made) {
     if (!made.built) return;
     made.run.failure = try_to([&] {
-      const Run run =
-          simulate_built(made.scene, std::move(*made.built), cache_,
-                         [&](std::string_view what, double fraction) {
-                           if (stops_)
-                             throw dynamics::Interrupted("interrupted");
-                           if (what == "simulating") note(index, fraction);
-                         });
+      runs::RunOptions options;
+      options.progress = [&](std::string_view what, double fraction) {
+        if (stops_) throw dynamics::Interrupted("interrupted");
+        if (what == "simulating") note(index, fraction);
+      };
+      const runs::Run run =
+          runs::simulate_built(made.scene, std::move(*made.built), options);
       made.run.seconds = run.statistics.seconds;
       if (run.failure) std::rethrow_exception(run.failure);
       if (auto open = find_imbalance(run.record.energy.worst,
@@ -200,7 +200,7 @@ class Estimator {
            sum / static_cast<double>(done_.size()));
   }
 
-  const Run& own_;
+  const runs::Run& own_;
   const std::filesystem::path& cache_;
   const Progress& progress_;
   std::vector<std::string> names_;
@@ -225,13 +225,14 @@ std::optional<std::string> find_imbalance(const dynamics::EnergyDrift& finer,
       finer.drift.time);
 }
 
-ErrorTable estimate_errors(const Run& run, const std::filesystem::path& cache,
-                           const Progress& progress) {
+runs::ErrorTable estimate_errors(const runs::Run& run,
+                                 const std::filesystem::path& cache,
+                                 const Progress& progress) {
   return Estimator(run, cache, progress).estimate();
 }
 
-void add_errors(Run& run, ErrorTable errors) {
-  for (const ProbeErrors& probe : errors.probes) {
+void add_errors(runs::Run& run, runs::ErrorTable errors) {
+  for (const runs::ProbeErrors& probe : errors.probes) {
     for (results::ProbeColumn& column : run.history.columns) {
       if (column.name != probe.column) continue;
       if (std::isfinite(probe.total.curve)) column.error = probe.total.curve;

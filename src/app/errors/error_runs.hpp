@@ -5,19 +5,19 @@
 #include <optional>
 #include <string>
 
-#include "limber/app/reports/error_table.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
+#include "limber/runs/error_table.hpp"
 
 namespace limber::app {
 
 /// Errors of a completed run, each cause from one more run, in threads for as
 /// many as there are processors.
 /// @throws Interrupted if `progress` ends the work
-[[nodiscard]] ErrorTable estimate_errors(const Run& run,
-                                         const std::filesystem::path& cache,
-                                         const Progress& progress);
+[[nodiscard]] runs::ErrorTable estimate_errors(
+    const runs::Run& run, const std::filesystem::path& cache,
+    const Progress& progress);
 
 /// Why a run with finer settings is no better than one's own: it gains or loses
 /// much more energy that nothing accounts for.
@@ -25,6 +25,6 @@ namespace limber::app {
     const dynamics::EnergyDrift& finer, const dynamics::EnergyDrift& own);
 
 /// Has files and pictures of the run show them.
-void add_errors(Run& run, ErrorTable errors);
+void add_errors(runs::Run& run, runs::ErrorTable errors);
 
 }  // namespace limber::app

@@ -4,12 +4,26 @@
 #include <chrono>
 
 #include "limber/common/errors.hpp"
+#include "limber/runs/numbered_stages.hpp"
 #ifdef LIMBER_HAS_REDUCTION
 #include "limber/reduction/full_body_maker.hpp"
 #include "limber/reduction/reduce.hpp"
 #endif
 
 namespace limber::app {
+
+runs::Reductions make_reductions(const std::filesystem::path& cache,
+                                 const Progress& progress) {
+  return {make_reducer(progress), cache, make_full_maker(progress)};
+}
+
+runs::SceneAdvice advise(const scene::Scene& scene,
+                         const std::filesystem::path& cache,
+                         const Progress& progress) {
+  return runs::advise_scene(
+      scene, make_reductions(cache, runs::number_stage(progress, 1, 2)),
+      progress);
+}
 
 scene::Reducer time_reductions(const scene::Reducer& reducer,
                                const NoteSeconds& note) {

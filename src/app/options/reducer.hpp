@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
 #include "limber/common/progress.hpp"
 #include "limber/reduction/mode_study.hpp"
+#include "limber/runs/level_judgement.hpp"
+#include "limber/runs/reductions.hpp"
 #include "limber/scene/build/full_bodies.hpp"
 #include "limber/scene/build/reductions.hpp"
 
@@ -14,6 +17,16 @@ namespace limber::app {
 /// flexbody::make_reducer; throws InputError in a build without Gmsh and
 /// CHOLMOD.
 [[nodiscard]] scene::Reducer make_reducer(const Progress& progress);
+
+/// Both, for runs; the mesher's and reducer's progress is shown by `progress`.
+/// @param cache empty for the default one
+[[nodiscard]] runs::Reductions make_reductions(
+    const std::filesystem::path& cache, const Progress& progress);
+
+/// runs::advise_scene with them.
+[[nodiscard]] runs::SceneAdvice advise(const scene::Scene& scene,
+                                       const std::filesystem::path& cache,
+                                       const Progress& progress);
 
 /// Receives the time [s] of a body, with its mesh, by its content key.
 using NoteSeconds = std::function<void(const std::string& key, double seconds)>;

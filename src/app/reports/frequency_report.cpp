@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/steady_report.hpp"
+#include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 
 namespace limber::app {
@@ -98,7 +98,7 @@ FrequencyReport find_frequencies(const scene::Scene& scene,
                                  const Progress& progress) {
   scene::BuiltScene built = scene::build_system(
       scene, make_reducer(progress), cache, make_full_maker(progress));
-  warn_of_unused_cache(cache, built);
+  runs::warn_of_unused_cache(cache, built);
   FrequencyReport report{
       scene.scenario.file.string(),
       scene.scenario.name,

@@ -8,11 +8,11 @@
 #include <system_error>
 
 #include "limber/app/run/pace.hpp"
-#include "limber/app/run/probe_columns.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/scratch_folder.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/results/results_file.hpp"
+#include "limber/runs/probe_columns.hpp"
 
 namespace limber::app {
 namespace {
@@ -33,7 +33,7 @@ ScratchFolder make_scratch() {
 /// The start, as often as there are outputs.
 results::History repeat_start(const scene::BuiltScene& built, int outputs) {
   results::History history;
-  history.columns = list_columns(built.probes);
+  history.columns = runs::list_columns(built.probes);
   const std::vector<double> row =
       scene::evaluate_all(built.probes, built.model, built.initial);
   for (int i = 0; i < outputs; ++i) {
@@ -47,7 +47,7 @@ results::History repeat_start(const scene::BuiltScene& built, int outputs) {
   return history;
 }
 
-double measure_file(const PicturedScene& scene, int outputs) {
+double measure_file(const runs::PicturedScene& scene, int outputs) {
   const ScratchFolder folder = make_scratch();
   const fs::path file = folder.path() / "results.h5";
   results::write_results(file, scene.built.model,
@@ -56,14 +56,14 @@ double measure_file(const PicturedScene& scene, int outputs) {
 }
 
 /// Of results.h5 with all outputs, from those of two outputs and many.
-std::size_t predict_file(const PicturedScene& scene) {
+std::size_t predict_file(const runs::PicturedScene& scene) {
   constexpr int kMany = 66;
   constexpr int kFew = 2;
   const scene::BuiltScene& built = scene.built;
   const auto outputs = static_cast<double>(built.settings.output_times.size());
   const double least = measure_file(scene, kFew);
   const double each = (measure_file(scene, kMany) - least) / (kMany - kFew);
-  const std::size_t columns = list_columns(built.probes).size();
+  const std::size_t columns = runs::list_columns(built.probes).size();
   const std::vector<double> edges = choose_envelope_edges(
       built.initial.t, built.settings.output_times, built.settings.end_time);
   const std::size_t envelopes =
@@ -92,7 +92,7 @@ std::size_t find_largest_memory() {
 
 }  // namespace
 
-CostCheck check_cost(const PicturedScene& scene) {
+CostCheck check_cost(const runs::PicturedScene& scene) {
   const scene::BuiltScene& built = scene.built;
   CostCheck cost;
   cost.pace = measure_pace(built);

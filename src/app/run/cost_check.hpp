@@ -2,12 +2,12 @@
 #pragma once
 
 #include "limber/app/reports/check_report.hpp"
-#include "limber/app/run/run_scenery.hpp"
+#include "limber/runs/pictured_scene.hpp"
 
 namespace limber::app {
 
 /// Makes the first steps of a run, and the start of its results file in a
 /// temporary folder.
-[[nodiscard]] CostCheck check_cost(const PicturedScene& scene);
+[[nodiscard]] CostCheck check_cost(const runs::PicturedScene& scene);
 
 }  // namespace limber::app

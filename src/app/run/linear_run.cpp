@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/steady_report.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/parse_number.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/control/closed_loop.hpp"
 
@@ -138,7 +138,7 @@ LinearRun linearise_scene(const scene::Scene& scene,
                           const Progress& progress) {
   scene::BuiltScene built = scene::build_system(
       scene, make_reducer(progress), cache, make_full_maker(progress));
-  warn_of_unused_cache(cache, built);
+  runs::warn_of_unused_cache(cache, built);
   const ReferenceState reference =
       find_reference(request.at, scene, built, progress);
   LinearRun run;

@@ -19,7 +19,7 @@ namespace limber::app {
 namespace {
 
 /// Addition to a picture's title if energy was gained or lost.
-std::string describe_open(const Run& run) {
+std::string describe_open(const runs::Run& run) {
   const dynamics::EnergyDrift& energy = run.record.energy.worst;
   const double share = dynamics::find_open_share(energy);
   if (!(share > dynamics::kToldDrift)) return "";
@@ -29,7 +29,8 @@ std::string describe_open(const Run& run) {
 
 }  // namespace
 
-void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
+void write_run(const runs::Run& run, const std::filesystem::path& folder,
+               bool xdmf) {
   results::write_results(folder / "results.h5", run.built.model, run.history,
                          &run.scenery, &run.record);
   results::write_probes_csv(folder / "probes.csv", run.history);
@@ -46,11 +47,11 @@ void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
   }
 }
 
-bool has_pictures(const Run& run) {
+bool has_pictures(const runs::Run& run) {
   return run.scene.scenario.output.pictures && !run.history.states.empty();
 }
 
-void draw_run(const Run& run, const std::filesystem::path& folder) {
+void draw_run(const runs::Run& run, const std::filesystem::path& folder) {
   const std::string& name = run.scene.scenario.name;
   const std::string level(to_string(run.scene.scenario.fidelity));
   // The slowest one first.

@@ -5,7 +5,9 @@
 
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/reports/contact_report.hpp"
+#include "limber/app/reports/error_report.hpp"
 #include "limber/app/reports/event_report.hpp"
+#include "limber/app/reports/level_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
@@ -57,7 +59,7 @@ Json summarize_energy(const results::History& history,
   return json;
 }
 
-Json summarize_probes(const Run& run) {
+Json summarize_probes(const runs::Run& run) {
   const results::History& history = run.history;
   const std::vector<dynamics::Extreme>& peaks = run.record.peaks;
   const auto nodes = find_peak_nodes(run.built, run.record);
@@ -86,7 +88,7 @@ Json describe_settings(const std::vector<scene::Setting>& settings) {
   return json;
 }
 
-Json summarize_selections(const Run& run) {
+Json summarize_selections(const runs::Run& run) {
   Json json = Json::object();
   for (const dynamics::BodyModel& body : run.built.model.bodies) {
     if (!body.reduced || !body.reduced->selection) continue;
@@ -96,7 +98,7 @@ Json summarize_selections(const Run& run) {
 }
 
 // What determined the lengths of steps, and for which bodies and pairs.
-Json summarize_limits(const Run& run) {
+Json summarize_limits(const runs::Run& run) {
   const dynamics::StepRecord& steps = run.record.steps;
   Json json{{"by", Json::array()},
             {"bodies", Json::object()},
@@ -123,7 +125,7 @@ Json summarize_limits(const Run& run) {
 
 // Estimates of the parts of the steps, such that their sum is what was
 // measured.
-Json summarize_times(const Run& run) {
+Json summarize_times(const runs::Run& run) {
   const dynamics::StepTimes& times = run.record.times;
   const double steps = times.contact + times.newton + times.monitors;
   const double scale =
@@ -162,7 +164,7 @@ std::vector<std::string> find_meshed_links(const scene::Scene& scene) {
 }
 
 // Why the run ended early.
-void summarize_failure(const Run& run, Json& json) {
+void summarize_failure(const runs::Run& run, Json& json) {
   json["completed"] = run.failure == nullptr;
   json["interrupted"] = false;
   if (!run.failure) return;
@@ -176,11 +178,11 @@ void summarize_failure(const Run& run, Json& json) {
   }
 }
 
-int count_modes(const Run& run) { return run.built.model.modal_count; }
+int count_modes(const runs::Run& run) { return run.built.model.modal_count; }
 
 }  // namespace
 
-Json summarize(const Run& run) {
+Json summarize(const runs::Run& run) {
   Json json = Json::object();
   json["scenario"] = run.scene.scenario.file.string();
   const std::vector<scene::Setting>& settings = run.scene.overrides.settings;
@@ -238,12 +240,12 @@ Json summarize(const Run& run) {
   }
   if (run.errors) json["errors"] = to_json(*run.errors);
   json["levels"] = Json::array();
-  for (const BodyLevel& level : run.levels) {
+  for (const runs::BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));
   }
   json["notes"] = run.built.notes;
   json["warnings"] = run.built.warnings;
-  for (const auto& texts : {run.statistics.warnings, run.printed_warnings}) {
+  for (const auto& texts : {run.statistics.warnings, run.given_warnings}) {
     for (const std::string& text : texts) json["warnings"].push_back(text);
   }
   return json;

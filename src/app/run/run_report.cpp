@@ -8,6 +8,7 @@
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/reports/contact_report.hpp"
+#include "limber/app/reports/error_report.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_scene.hpp"
@@ -19,7 +20,7 @@ namespace limber::app {
 namespace {
 
 /// Error of the energy energy relative to the throughput.
-std::string describe_drift(const Run& run) {
+std::string describe_drift(const runs::Run& run) {
   const results::EnergyError energy = results::find_energy_error(run.history);
   const std::optional<double> relative = energy.relative();
   if (!relative) return "";
@@ -42,7 +43,7 @@ void print_probes(const results::History& history,
   }
 }
 
-void print_tolerance(const Run& run) {
+void print_tolerance(const runs::Run& run) {
   const double tolerance = run.built.settings.tolerance;
   const bool is_chosen =
       run.scene.scenario.settings.tolerance == scene::kToleranceToChoose;
@@ -62,7 +63,7 @@ void print_tolerance(const Run& run) {
              tolerance, chosen);
 }
 
-void print_text(const Run& run, const std::filesystem::path& folder) {
+void print_text(const runs::Run& run, const std::filesystem::path& folder) {
   fmt::print("{} bodies, {} modes ({} in closed form), {} couplers\n",
              run.built.model.bodies.size(), run.built.model.modal_count,
              run.statistics.exact_modes, run.built.model.couplers.size());
@@ -99,7 +100,7 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
-void raise_failure(const Run& run, const std::filesystem::path& folder) {
+void raise_failure(const runs::Run& run, const std::filesystem::path& folder) {
   try {
     std::rethrow_exception(run.failure);
   } catch (const dynamics::Interrupted& end) {
@@ -114,7 +115,8 @@ void raise_failure(const Run& run, const std::filesystem::path& folder) {
 
 // Prints the report completely before pictures are drawn. Errors of the stream
 // are reported at the end of the command.
-void tell_run(const Run& run, const std::filesystem::path& folder, bool json) {
+void tell_run(const runs::Run& run, const std::filesystem::path& folder,
+              bool json) {
   if (json) {
     Json summary = summarize(run);
     summary["folder"] = folder.string();
@@ -127,8 +129,8 @@ void tell_run(const Run& run, const std::filesystem::path& folder, bool json) {
 
 }  // namespace
 
-void finish_run(const Run& run, const OutputFolder& folder, bool json) {
-  print_warnings(find_level_warnings(run.levels));
+void finish_run(const runs::Run& run, const OutputFolder& folder, bool json) {
+  print_warnings(runs::find_level_warnings(run.levels));
   if (!run.failure) tell_run(run, folder.path(), json);
   if (has_pictures(run)) {
     folder.add(

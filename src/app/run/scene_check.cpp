@@ -108,8 +108,8 @@ std::optional<double> find_stable_limit(const scene::BuiltScene& built) {
 SceneCheck check_scene(const scene::Scene& scene,
                        const std::filesystem::path& cache,
                        const Progress& progress) {
-  const PicturedScene pictured = build_pictured(
-      scene, make_reducer(progress), cache, make_full_maker(progress));
+  const runs::PicturedScene pictured =
+      runs::build_pictured(scene, make_reductions(cache, progress));
   const scene::BuiltScene& built = pictured.built;
   SceneCheck check;
   check.scenario = scene.scenario.file.string();

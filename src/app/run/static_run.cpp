@@ -6,14 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "limber/app/console/numbered_stages.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/options/unused_cache.hpp"
-#include "limber/app/reports/levels.hpp"
-#include "limber/app/run/probe_columns.hpp"
-#include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/monitors/deflection_observer.hpp"
@@ -21,13 +16,18 @@
 #include "limber/results/probes_csv.hpp"
 #include "limber/results/results_file.hpp"
 #include "limber/results/xdmf.hpp"
+#include "limber/runs/level_judgement.hpp"
+#include "limber/runs/numbered_stages.hpp"
+#include "limber/runs/pictured_scene.hpp"
+#include "limber/runs/probe_columns.hpp"
+#include "limber/runs/unused_cache.hpp"
 
 namespace limber::app {
 namespace {
 
 void observe_equilibrium(StaticRun& run) {
   const dynamics::SystemState& state = run.found.state;
-  run.history.columns = list_columns(run.built.probes);
+  run.history.columns = runs::list_columns(run.built.probes);
   run.history.times = {state.t};
   run.history.probe_rows = {
       scene::evaluate_all(run.built.probes, run.built.model, state)};
@@ -39,11 +39,11 @@ bool is_unstable(const StaticReport& report) {
   return report.lowest_frequency && *report.lowest_frequency < 0.0;
 }
 
-void add_static_warnings(const std::filesystem::path& cache, StaticRun& run) {
+void add_static_warnings(const runs::Reductions& reductions, StaticRun& run) {
   run.warnings = run.built.warnings;
-  RunLevelObserver level_observer(run.scene, run.built, cache);
+  runs::RunLevelObserver level_observer(run.scene, run.built, reductions);
   level_observer.include(run.found.state);
-  const auto levels = find_level_warnings(level_observer.judge());
+  const auto levels = runs::find_level_warnings(level_observer.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
   const auto holds =
       dynamics::find_hold_warnings(run.built.model, run.found.state);
@@ -64,7 +64,7 @@ void follow_branch(StaticRun& run, const Progress& progress) {
   try {
     const dynamics::Equilibrium found = find_equilibrium(
         run.built.model, run.built.initial, {.largest_share = kShare},
-        number_stage(progress, 2, 2));
+        runs::number_stage(progress, 2, 2));
     const StaticReport stable = report_equilibrium(run.built, found);
     if (is_unstable(stable)) return;
     run.found = found;
@@ -95,19 +95,19 @@ StaticRun find_static(const scene::Scene& scene,
                       dynamics::EquilibriumMethod method,
                       const std::filesystem::path& cache,
                       const Progress& progress) {
-  const Progress making = number_stage(progress, 1, 2);
+  const runs::Reductions reductions =
+      make_reductions(cache, runs::number_stage(progress, 1, 2));
   StaticRun run;
   run.scene = scene;
   run.method = method;
   run.scene.scenario.equilibrium.reset();
-  PicturedScene made = build_pictured(run.scene, make_reducer(making), cache,
-                                      make_full_maker(making));
+  runs::PicturedScene made = runs::build_pictured(run.scene, reductions);
   run.built = std::move(made.built);
   run.scenery = std::move(made.scenery);
-  warn_of_unused_cache(cache, run.built);
-  run.found =
-      find_equilibrium(run.built.model, run.built.initial,
-                       {.method = run.method}, number_stage(progress, 2, 2));
+  runs::warn_of_unused_cache(cache, run.built);
+  run.found = find_equilibrium(run.built.model, run.built.initial,
+                               {.method = run.method},
+                               runs::number_stage(progress, 2, 2));
   if (run.found.load_steps == 0) {
     throw InputError(fmt::format(
         "{}: nothing acts on the system at its start, which is the trivial "
@@ -119,7 +119,7 @@ StaticRun find_static(const scene::Scene& scene,
   observe_equilibrium(run);
   run.stress = find_stress_peaks(run.built, run.history,
                                  record_state(run.built, run.found.state));
-  add_static_warnings(cache, run);
+  add_static_warnings(reductions, run);
   return run;
 }
 

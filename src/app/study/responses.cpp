@@ -9,12 +9,12 @@
 #include <map>
 
 #include "limber/app/reports/stress_report.hpp"
-#include "limber/app/run/probe_columns.hpp"
 #include "limber/app/study/curve_measures.hpp"
 #include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/runs/probe_columns.hpp"
 
 namespace limber::app {
 namespace {
@@ -134,7 +134,8 @@ int find_order(const results::ProbeColumn& column) {
 class Evaluation {
  public:
   /// @param own that of the responses without a level
-  Evaluation(const Run& run, const Run& own) : run_(run), own_(own) {}
+  Evaluation(const runs::Run& run, const runs::Run& own)
+      : run_(run), own_(own) {}
 
   Value operator()(const ProbeResponse& probe) const {
     const auto& columns = run_.history.columns;
@@ -219,8 +220,8 @@ class Evaluation {
     }
   }
 
-  const Run& run_;
-  const Run& own_;
+  const runs::Run& run_;
+  const runs::Run& own_;
   std::optional<Json> json_;
 };
 
@@ -251,7 +252,7 @@ Parts list_variables(const Study& study, std::size_t response) {
 /// Describes the error of one response; empty if it is valid.
 class Check {
  public:
-  Check(const Study& study, const scene::Scene& scene, const Run& start)
+  Check(const Study& study, const scene::Scene& scene, const runs::Run& start)
       : study_(study), scene_(scene), start_(start) {}
 
   void set_index(std::size_t index) { index_ = index; }
@@ -341,16 +342,17 @@ class Check {
 
   const Study& study_;
   const scene::Scene& scene_;
-  const Run& start_;
+  const runs::Run& start_;
   std::size_t index_ = 0;
 };
 
 /// A run with its start only, for the names in its summary.
-Run make_start(const scene::Scene& scene, const scene::BuiltScene& built) {
-  Run run;
+runs::Run make_start(const scene::Scene& scene,
+                     const scene::BuiltScene& built) {
+  runs::Run run;
   run.scene = scene;
   run.built = built;
-  run.history.columns = list_columns(built.probes);
+  run.history.columns = runs::list_columns(built.probes);
   run.history.times = {0.0};
   run.history.probe_rows = {
       scene::evaluate_all(built.probes, built.model, built.initial)};
@@ -364,7 +366,7 @@ Run make_start(const scene::Scene& scene, const scene::BuiltScene& built) {
 
 void check_responses(const Study& study, const scene::Scene& scene,
                      const scene::BuiltScene& built) {
-  const Run start = make_start(scene, built);
+  const runs::Run start = make_start(scene, built);
   Check check(study, scene, start);
   Parts problems;
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
@@ -398,12 +400,12 @@ std::vector<dynamics::Fidelity> list_levels(const Study& study) {
   return levels;
 }
 
-ResponseValues evaluate_run(const Study& study, const Run& run,
-                            const std::vector<Run>& at_levels) {
+ResponseValues evaluate_run(const Study& study, const runs::Run& run,
+                            const std::vector<runs::Run>& at_levels) {
   const std::vector<dynamics::Fidelity> levels = list_levels(study);
   Evaluation own(run, run);
   std::vector<Evaluation> others;
-  for (const Run& other : at_levels) others.emplace_back(other, run);
+  for (const runs::Run& other : at_levels) others.emplace_back(other, run);
   ResponseValues values;
   for (const Response& response : study.responses) {
     const auto level = std::find(levels.begin(), levels.end(), response.level);

@@ -28,8 +28,9 @@ void check_responses(const Study& study, const scene::Scene& scene,
 /// @param at_levels the same run, with the outputs at the same times, at each
 /// of list_levels
 /// @throws InputError for a figure that the run's summary does not have
-[[nodiscard]] ResponseValues evaluate_run(const Study& study, const Run& run,
-                                          const std::vector<Run>& at_levels);
+[[nodiscard]] ResponseValues evaluate_run(
+    const Study& study, const runs::Run& run,
+    const std::vector<runs::Run>& at_levels);
 
 /// Adds the formulas. Not thread-safe.
 void evaluate_formulas(const Study& study,

@@ -16,12 +16,12 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
-#include "limber/app/options/unused_cache.hpp"
-#include "limber/app/run/run_manifest.hpp"
 #include "limber/app/study/study_worker.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/run_manifest.hpp"
+#include "limber/runs/unused_cache.hpp"
 
 namespace limber::app {
 namespace {
@@ -222,13 +222,13 @@ StudyBase make_base(const Study& study, const Design& design,
   const Progress progress = make_progress_bar();
   base.built = scene::build_system(base.scene, make_reducer(progress), cache,
                                    make_full_maker(progress));
-  warn_of_unused_cache(cache, base.built);
+  runs::warn_of_unused_cache(cache, base.built);
   clear_progress_bar();
   print_more_notes(base.scene, base.built.notes);
   print_warnings(base.built.warnings);
   check_responses(study, base.scene, base.built);
-  base.manifest =
-      describe_study(study) + make_manifest(base.scene, base.built).text();
+  base.manifest = describe_study(study) +
+                  runs::make_manifest(base.scene, base.built).text();
   return base;
 }
 

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/runs/library_lock.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<std::string> list_warnings(const Run& run) {
+std::vector<std::string> list_warnings(const runs::Run& run) {
   std::vector<std::string> texts = run.built.warnings;
   texts.insert(texts.end(), run.statistics.warnings.begin(),
                run.statistics.warnings.end());
@@ -61,13 +61,13 @@ std::optional<StudyRow> StudyWorker::make_row(
 }
 
 /// Adds to the row's times and warnings.
-Run StudyWorker::make_run(StudyRow& row,
-                          const std::optional<dynamics::Fidelity>& level) {
+runs::Run StudyWorker::make_run(
+    StudyRow& row, const std::optional<dynamics::Fidelity>& level) {
   const Clock::time_point start = Clock::now();
   scene::Scene scene;
   scene::BuiltScene built;
   {
-    const auto lock = lock_libraries();
+    const auto lock = runs::lock_libraries();
     scene::Overrides overrides = to_overrides(study_, row.factors);
     if (level) overrides.fidelity = level;
     scene = scene::load_scene(study_.scenario, overrides, &robots_);
@@ -76,8 +76,11 @@ Run StudyWorker::make_run(StudyRow& row,
     known_ = built.known;
   }
   row.seconds_ready += seconds_since(start);
-  Run run =
-      simulate_built(scene, std::move(built), cache_, watch_, {}, judges_);
+  runs::RunOptions options;
+  options.reductions = {reducer_, cache_};
+  options.progress = watch_;
+  options.judges_levels = judges_;
+  runs::Run run = runs::simulate_built(scene, std::move(built), options);
   row.seconds += run.statistics.seconds;
   if (!level) {
     row.warnings = fmt::format("{}", fmt::join(list_warnings(run), "\n"));
@@ -86,14 +89,14 @@ Run StudyWorker::make_run(StudyRow& row,
 }
 
 bool StudyWorker::simulate(StudyRow& row) {
-  const Run run = make_run(row, {});
-  std::vector<Run> at_levels;
+  const runs::Run run = make_run(row, {});
+  std::vector<runs::Run> at_levels;
   std::string place;
   try {
     if (run.failure) std::rethrow_exception(run.failure);
     for (const dynamics::Fidelity level : list_levels(study_)) {
       place = fmt::format("at level {}: ", dynamics::to_string(level));
-      const Run& other = at_levels.emplace_back(make_run(row, level));
+      const runs::Run& other = at_levels.emplace_back(make_run(row, level));
       if (other.failure) std::rethrow_exception(other.failure);
     }
   } catch (const dynamics::Interrupted&) {

@@ -35,8 +35,8 @@ class StudyWorker {
 
  private:
   [[nodiscard]] bool simulate(StudyRow& row);
-  [[nodiscard]] Run make_run(StudyRow& row,
-                             const std::optional<dynamics::Fidelity>& level);
+  [[nodiscard]] runs::Run make_run(
+      StudyRow& row, const std::optional<dynamics::Fidelity>& level);
 
   const Study& study_;
   std::filesystem::path cache_;

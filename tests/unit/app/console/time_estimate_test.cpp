@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limber/app/console/numbered_stages.hpp"
+#include "limber/runs/numbered_stages.hpp"
 
 namespace limber::app::time_estimate_test {
 namespace {
@@ -72,8 +72,8 @@ TEST(NumberedStage, PutsItsNumberBeforeTheTask) {
   const Progress bar = [&](std::string_view what, double fraction) {
     said += fmt::format("{}: {}\n", what, fraction);
   };
-  number_stage(bar, 1, 2)(with_duration("factorising", 300.0), 0.25);
-  number_stage(bar, 2, 2)("simulating", 0.5);
+  runs::number_stage(bar, 1, 2)(with_duration("factorising", 300.0), 0.25);
+  runs::number_stage(bar, 2, 2)("simulating", 0.5);
   EXPECT_EQ(
       said,
       "1 of 2, factorising, about 5 min: 0.25\n2 of 2, simulating: 0.5\n");

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/reports/error_table.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "limber/app/reports/error_report.hpp"
+
 namespace limber::test::error_table_test {
 namespace {
 
-using app::ColumnValues;
-using app::compare_causes;
-using app::ErrorRun;
-using app::ErrorTable;
+using app::to_json;
+using app::to_text;
+using runs::ColumnValues;
+using runs::compare_causes;
+using runs::ErrorRun;
+using runs::ErrorTable;
+using runs::ProbeErrors;
 using ::testing::HasSubstr;
 
 const std::vector<std::string> kNames = {"tip.ux"};
@@ -31,7 +34,7 @@ TEST(ErrorTable, HasTheDifferencesOfEachCauseTimesItsFactor) {
                      {make_run("step", 4.0 / 3.0, 1.0, {{0.0, 1.3, -2.0}, 2.8}),
                       make_run("modes", 1.0, 1.0, {{0.1, 1.0, -2.05}, -2.5})},
                      std::nullopt);
-  const app::ProbeErrors& probe = table.probes.at(0);
+  const ProbeErrors& probe = table.probes.at(0);
   EXPECT_NEAR(probe.by_cause[0].curve, 0.4, 1e-15);
   EXPECT_NEAR(probe.by_cause[0].peak, 0.4, 1e-15);  // of magnitudes
   EXPECT_NEAR(probe.by_cause[1].curve, 0.1, 1e-15);

@@ -8,8 +8,8 @@
 #include <cctype>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/run/run_manifest.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/runs/run_manifest.hpp"
 #include "places.hpp"
 #include "unit/app/run/changed_run_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
@@ -127,7 +127,7 @@ class ChangedRun : public ::testing::Test {
     Built built{
         scene::build_system(scene, make_reducer({}), folder_.path() / "cache"),
         {}};
-    built.manifest = make_manifest(scene, built.scene);
+    built.manifest = runs::make_manifest(scene, built.scene);
     return built;
   }
 

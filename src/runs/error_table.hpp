@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/console/json.hpp"
-
 /// Errors of a run's probes by cause: docs/reference/errors.md.
-namespace limber::app {
+namespace limber::runs {
 
 /// Values of one column, at the outputs and of the peak over all steps.
 struct ColumnValues {
@@ -25,6 +23,10 @@ struct ErrorRun {
   std::string failure;                ///< why there are no columns; else empty
   std::vector<ColumnValues> columns;  ///< in the order of the run's
 };
+
+[[nodiscard]] inline bool is_known(const ErrorRun& run) {
+  return run.failure.empty();
+}
 
 struct ColumnError {
   double peak = 0.0;   ///< of the largest magnitude [unit of the column]
@@ -61,8 +63,4 @@ struct ErrorTable {
     const std::vector<std::string>& units, const std::vector<ColumnValues>& own,
     std::vector<ErrorRun> runs, const std::optional<ErrorRun>& together);
 
-[[nodiscard]] Json to_json(const ErrorTable& table);
-/// Lines for a terminal, without those of noise; empty without probes.
-[[nodiscard]] std::string to_text(const ErrorTable& table);
-
-}  // namespace limber::app
+}  // namespace limber::runs

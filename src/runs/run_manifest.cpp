@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/run_manifest.hpp"
+#include "limber/runs/run_manifest.hpp"
 
 #include "limber/common/files/build_id.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
@@ -7,7 +7,7 @@
 #include "limber/scene/probes/probe_fields.hpp"
 #include "limber/version.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 Manifest make_manifest(const scene::Scene& scene,
                        const scene::BuiltScene& built) {
@@ -22,4 +22,4 @@ Manifest make_manifest(const scene::Scene& scene,
   return manifest;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

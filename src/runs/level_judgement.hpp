@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/console/json.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/analysis/level_advice.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
+#include "limber/runs/reductions.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene.hpp"
 
 /// The level of each flexible body: used and recommended.
-namespace limber::app {
+namespace limber::runs {
 
 struct BodyLevel {
   std::string name;
@@ -56,7 +56,7 @@ class RunLevelObserver {
   /// Bodies at level `full` are reduced here. @param scene, built stored by
   /// reference
   RunLevelObserver(const scene::Scene& scene, const scene::BuiltScene& built,
-                   const std::filesystem::path& cache);
+                   const Reductions& reductions);
   RunLevelObserver(const RunLevelObserver&) = delete;
   RunLevelObserver& operator=(const RunLevelObserver&) = delete;
   ~RunLevelObserver() = default;
@@ -78,7 +78,7 @@ class RunLevelObserver {
 /// in `known`; links in `others` at their own levels.
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
-    const scene::KnownBodies& known, const std::filesystem::path& cache,
+    const scene::KnownBodies& known, const Reductions& reductions,
     const std::map<std::string, dynamics::Fidelity>& others = {});
 
 /// What `limber advise` finds.
@@ -89,11 +89,10 @@ struct SceneAdvice {
   std::vector<std::string> notes;  ///< as scene::BuiltScene
 };
 /// Runs the scene with every link rigid and judges the levels that it requests.
-/// @param cache empty for the default one
 /// @throws InputError also if no link is flexible, or if a controller measures
 /// stress
 [[nodiscard]] SceneAdvice advise_scene(const scene::Scene& scene,
-                                       const std::filesystem::path& cache,
+                                       const Reductions& reductions,
                                        const Progress& progress);
 
 /// Gives free bodies their `bound`.
@@ -103,12 +102,4 @@ void find_bounds(std::vector<BodyLevel>& levels);
 [[nodiscard]] std::vector<std::string> find_level_warnings(
     const std::vector<BodyLevel>& levels);
 
-[[nodiscard]] Json to_json(const BodyLevel& level);
-[[nodiscard]] Json to_json(const SceneAdvice& advice);
-/// A readable paragraph.
-[[nodiscard]] std::string to_text(const BodyLevel& level);
-/// The [fidelity] table of a scenario that follows the advice.
-[[nodiscard]] std::string to_fidelity_table(
-    const std::vector<BodyLevel>& levels);
-
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/reports/cut_contacts.hpp"
+#include "limber/runs/cut_contacts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/piece_names.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 using dynamics::BodyIndex;
@@ -93,4 +93,4 @@ std::vector<std::string> find_cut_contacts(
   return warnings;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/reports/level_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-
-#include "limber/app/reports/levels.hpp"
 
 namespace limber::app {
 namespace {
@@ -26,7 +26,7 @@ struct Boundaries {
   std::optional<double> margin;  ///< of the bound at the peaks [-]
 };
 
-Boundaries find_boundaries(const BodyLevel& level) {
+Boundaries find_boundaries(const runs::BodyLevel& level) {
   Boundaries result;
   if (level.reduced->clamped) return result;
   const flexbody::InertialLevers& levers = level.reduced->levers;
@@ -54,7 +54,7 @@ Json describe_peak(const Peak& peak) {
   return Json{{"value", peak.value}, {"time", peak.time}};
 }
 
-Json describe_boundaries(const BodyLevel& level) {
+Json describe_boundaries(const runs::BodyLevel& level) {
   const Boundaries b = find_boundaries(level);
   const auto over = [](double value, const std::optional<double>& limit) {
     return limit ? Json(value / *limit) : Json(nullptr);
@@ -77,7 +77,7 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : std::string("-");
 }
 
-std::string describe_rotation(const BodyLevel& level) {
+std::string describe_rotation(const runs::BodyLevel& level) {
   if (level.reduced->clamped) {
     return "  clamped to the world: no rotation, no boundary\n";
   }
@@ -118,7 +118,7 @@ std::string to_key(const std::string& name) {
 
 }  // namespace
 
-Json to_json(const BodyLevel& level) {
+Json to_json(const runs::BodyLevel& level) {
   const dynamics::BodyPeaks& peaks = level.peaks;
   const dynamics::LevelAdvice& advice = level.advice;
   Json json = Json::object();
@@ -170,11 +170,11 @@ Json to_json(const BodyLevel& level) {
   return json;
 }
 
-Json to_json(const SceneAdvice& advice) {
+Json to_json(const runs::SceneAdvice& advice) {
   Json json = Json::object();
   json["scenario"] = advice.scenario;
   json["bodies"] = Json::array();
-  for (const BodyLevel& level : advice.levels) {
+  for (const runs::BodyLevel& level : advice.levels) {
     json["bodies"].push_back(to_json(level));
   }
   json["fidelity_table"] = to_fidelity_table(advice.levels);
@@ -182,7 +182,7 @@ Json to_json(const SceneAdvice& advice) {
   return json;
 }
 
-std::string to_text(const BodyLevel& level) {
+std::string to_text(const runs::BodyLevel& level) {
   const dynamics::BodyPeaks& peaks = level.peaks;
   const dynamics::LevelAdvice& advice = level.advice;
   std::string text = fmt::format(
@@ -219,15 +219,15 @@ std::string to_text(const BodyLevel& level) {
   return text;
 }
 
-std::string to_fidelity_table(const std::vector<BodyLevel>& levels) {
+std::string to_fidelity_table(const std::vector<runs::BodyLevel>& levels) {
   std::map<Fidelity, int> counts;
-  for (const BodyLevel& level : levels) ++counts[level.advice.level];
+  for (const runs::BodyLevel& level : levels) ++counts[level.advice.level];
   Fidelity usual = Fidelity::coupled;
   for (const auto& [level, count] : counts) {
     if (!counts.contains(usual) || count >= counts[usual]) usual = level;
   }
   std::string others;
-  for (const BodyLevel& level : levels) {
+  for (const runs::BodyLevel& level : levels) {
     if (level.advice.level == usual) continue;
     others += fmt::format("{}{} = \"{}\"", others.empty() ? "" : ", ",
                           to_key(level.name), to_string(level.advice.level));

@@ -5,7 +5,7 @@
 
 #include "limber/scene/build/build_system.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// Adds a warning to the scene's if a cache was given and no body needs
 /// one.
@@ -14,4 +14,4 @@ namespace limber::app {
 void warn_of_unused_cache(const std::filesystem::path& cache,
                           scene::BuiltScene& built);
 
-}  // namespace limber::app
+}  // namespace limber::runs

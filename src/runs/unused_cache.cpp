@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/options/unused_cache.hpp"
+#include "limber/runs/unused_cache.hpp"
 
 #include <fmt/format.h>
 
 #include "limber/common/echo.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 void warn_of_unused_cache(const std::filesystem::path& cache,
                           scene::BuiltScene& built) {
@@ -15,4 +15,4 @@ void warn_of_unused_cache(const std::filesystem::path& cache,
                   echo(cache.string())));
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

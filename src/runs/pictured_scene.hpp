@@ -4,10 +4,11 @@
 #include <filesystem>
 
 #include "limber/results/scenery.hpp"
+#include "limber/runs/reductions.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// A built scene with what pictures of it show.
 struct PicturedScene {
@@ -22,8 +23,6 @@ struct PicturedScene {
 /// scene::build_system, and the scenery; shapes that cannot be read are left
 /// out with a warning among those of the scene.
 [[nodiscard]] PicturedScene build_pictured(const scene::Scene& scene,
-                                           const scene::Reducer& reducer,
-                                           const std::filesystem::path& cache,
-                                           const scene::FullMaker& make_full);
+                                           const Reductions& reductions);
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/checkpoints.hpp"
+#include "limber/runs/checkpoints.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,11 +9,10 @@
 #include <system_error>
 #include <utility>
 
-#include "limber/app/console/terminal.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/checkpoint_file.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 // Most differences listed; the first ones usually cause the rest.
@@ -41,21 +40,16 @@ bool is_there(const std::filesystem::path& file) {
          std::filesystem::file_type::not_found;
 }
 
-void print_warning(const std::string& text,
-                   std::vector<std::string>& warnings) {
-  print_warnings({text});
-  warnings.push_back(text);
-}
-
 // Writes checkpoints during the run.
 class Keeper {
  public:
   using MakeWriter = std::function<results::CheckpointWriter()>;
   // `make_writer` is called at the first checkpoint.
   Keeper(MakeWriter make_writer, const results::History& history,
-         std::vector<std::string>& warnings)
+         const Warn& warn, std::vector<std::string>& warnings)
       : make_writer_(std::move(make_writer)),
         history_(history),
+        warn_(warn),
         warnings_(warnings) {}
 
   void go_on_with(results::CheckpointWriter writer) {
@@ -68,10 +62,10 @@ class Keeper {
       writer_->write(run, history_);
     } catch (const InputError& error) {
       if (std::exchange(has_warned_, true)) return;
-      print_warning(
+      warnings_.push_back(
           fmt::format("no checkpoint at t = {:.9g} s: {}; the run continues",
-                      run.time, error.what()),
-          warnings_);
+                      run.time, error.what()));
+      if (warn_) warn_(warnings_.back());
     }
   }
 
@@ -79,6 +73,7 @@ class Keeper {
   MakeWriter make_writer_;
   std::optional<results::CheckpointWriter> writer_;
   const results::History& history_;
+  const Warn& warn_;
   std::vector<std::string>& warnings_;
   bool has_warned_ = false;
 };
@@ -87,15 +82,15 @@ class Keeper {
 
 dynamics::Continuation make_continuation(
     const CheckpointPlan& plan, const std::function<Manifest()>& describe,
-    results::History& history, std::vector<std::string>& warnings) {
+    results::History& history, const Warn& warn,
+    std::vector<std::string>& warnings) {
   dynamics::Continuation continuation;
-  if (plan.signals != nullptr) plan.signals->begin();
   if (plan.file.empty()) return continuation;
   const auto keeper = std::make_shared<Keeper>(
       [file = plan.file, describe] {
         return results::CheckpointWriter(file, describe());
       },
-      history, warnings);
+      history, warn, warnings);
   continuation.keeper.interval = plan.interval;
   continuation.keeper.keep = [keeper](const dynamics::Checkpoint& run) {
     keeper->keep(run);
@@ -103,10 +98,12 @@ dynamics::Continuation make_continuation(
   if (!plan.resumes) return continuation;
   if (!is_there(plan.file)) {
     // Not one of the summary, which is that of the run from the beginning.
-    print_warnings(
-        {fmt::format("there is no checkpoint '{}' to resume from; the run "
-                     "starts from the beginning",
-                     plan.file.string())});
+    if (warn) {
+      warn(
+          fmt::format("there is no checkpoint '{}' to resume from; the run "
+                      "starts from the beginning",
+                      plan.file.string()));
+    }
     return continuation;
   }
   results::CheckpointRecord record = results::read_checkpoint(plan.file);
@@ -117,4 +114,4 @@ dynamics::Continuation make_continuation(
   return continuation;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/console/numbered_stages.hpp"
+#include "limber/runs/numbered_stages.hpp"
 
 #include <fmt/format.h>
 
-namespace limber::app {
+namespace limber::runs {
 
 Progress number_stage(const Progress& progress, int stage, int count) {
   return [progress, stage, count](std::string_view what, double fraction) {
@@ -11,4 +11,4 @@ Progress number_stage(const Progress& progress, int stage, int count) {
   };
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

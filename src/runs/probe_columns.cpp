@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/probe_columns.hpp"
+#include "limber/runs/probe_columns.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 std::vector<results::ProbeColumn> list_columns(
     const std::vector<scene::Probe>& probes) {
@@ -14,4 +14,4 @@ std::vector<results::ProbeColumn> list_columns(
   return columns;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -3,11 +3,11 @@
 
 #include <mutex>
 
-namespace limber::app {
+namespace limber::runs {
 
 /// Locks loading of scenes, building of systems, and HDF5: the libraries for
 /// these are not thread-safe. To be held by code that may run in several
 /// threads.
 [[nodiscard]] std::unique_lock<std::mutex> lock_libraries();
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/scene/robot/robot.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// A warning for each body that touched two pieces of a link at one time. At a
 /// cut both resist as if they were alone. An impact's force grows as the 2/5th
@@ -17,4 +17,4 @@ namespace limber::app {
     const scene::Robot& robot, const dynamics::SystemModel& model,
     const std::vector<dynamics::ContactRecord>& records);
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/reports/levels.hpp"
+#include "limber/runs/level_judgement.hpp"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,15 @@
 #include <cmath>
 #include <map>
 
-#include "limber/app/console/numbered_stages.hpp"
-#include "limber/app/console/terminal.hpp"
-#include "limber/app/options/reducer.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/runs/numbered_stages.hpp"
+#include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/recipes.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 using dynamics::Fidelity;
@@ -75,12 +73,12 @@ std::map<std::string, Fidelity> find_cut_links(const scene::Scene& scene) {
 /// The run's model with every flexible body at `uncoupled`.
 SystemModel find_flexible_model(const scene::Scene& scene,
                                 const scene::BuiltScene& built,
-                                const std::filesystem::path& cache) {
+                                const Reductions& reductions) {
   if (!has_all_modes(built.model)) {
     scene::Scene at_start = scene;
     at_start.scenario.equilibrium.reset();
     return lower_levels(build_at_level(at_start, Fidelity::uncoupled,
-                                       built.known, cache,
+                                       built.known, reductions,
                                        find_cut_links(scene))
                             .model);
   }
@@ -149,7 +147,7 @@ std::string find_doubt(const std::vector<dynamics::ContactRecord>& contacts) {
 
 scene::BuiltScene build_at_level(
     const scene::Scene& scene, Fidelity level, const scene::KnownBodies& known,
-    const std::filesystem::path& cache,
+    const Reductions& reductions,
     const std::map<std::string, Fidelity>& others) {
   scene::Scene same = scene;
   // The same rows as for level `full`, so that nothing is reduced again.
@@ -160,7 +158,7 @@ scene::BuiltScene build_at_level(
   }
   same.scenario.fidelity = level;
   same.scenario.fidelity_of_link = others;
-  return scene::build_system(same, make_reducer(make_progress_bar()), cache, {},
+  return scene::build_system(same, reductions.reducer, reductions.cache, {},
                              known);
 }
 
@@ -188,10 +186,10 @@ std::vector<BodyLevel> judge_levels(
 
 RunLevelObserver::RunLevelObserver(const scene::Scene& scene,
                                    const scene::BuiltScene& built,
-                                   const std::filesystem::path& cache)
+                                   const Reductions& reductions)
     : scene_(scene), built_(built) {
   if (!has_flexible_body(built.model)) return;
-  model_ = find_flexible_model(scene, built, cache);
+  model_ = find_flexible_model(scene, built, reductions);
   level_observer_.emplace(model_);
 }
 
@@ -225,19 +223,19 @@ std::vector<BodyLevel> RunLevelObserver::judge() const {
 }
 
 SceneAdvice advise_scene(const scene::Scene& scene,
-                         const std::filesystem::path& cache,
+                         const Reductions& reductions,
                          const Progress& progress) {
   require_flexible_link(scene);
   scene::Scene flexible_scene = scene;
   flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
   flexible_scene.scenario.fidelity_of_link.clear();
   flexible_scene.scenario.equilibrium.reset();
-  scene::BuiltScene flexible = scene::build_system(
-      flexible_scene, make_reducer(number_stage(progress, 1, 2)), cache);
-  warn_of_unused_cache(cache, flexible);
+  scene::BuiltScene flexible =
+      scene::build_system(flexible_scene, reductions.reducer, reductions.cache);
+  warn_of_unused_cache(reductions.cache, flexible);
   const scene::BuiltScene rigid =
       build_at_level(leave_out_stress(scene), dynamics::Fidelity::rigid,
-                     flexible.known, cache);
+                     flexible.known, reductions);
   std::optional<dynamics::LevelObserver> level_observer(flexible.model);
   dynamics::Followed followed;
   followed.motion_observer = {[&] { level_observer.emplace(flexible.model); },
@@ -297,4 +295,4 @@ std::vector<std::string> find_level_warnings(
   return warnings;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

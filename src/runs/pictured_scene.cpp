@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/run_scenery.hpp"
+#include "limber/runs/pictured_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "limber/scene/contacts/triangle_file.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 constexpr InputKind kText = {"scenario or robot file", std::uint64_t{1} << 28};
@@ -155,16 +155,15 @@ void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
 }  // namespace
 
 PicturedScene build_pictured(const scene::Scene& scene,
-                             const scene::Reducer& reducer,
-                             const std::filesystem::path& cache,
-                             const scene::FullMaker& make_full) {
+                             const Reductions& reductions) {
   std::vector<std::string> unread;
   PicturedScene made;
   made.scenery = read_scenery(scene, unread);
-  made.built = scene::build_system(scene, reducer, cache, make_full);
+  made.built = scene::build_system(scene, reductions.reducer, reductions.cache,
+                                   reductions.make_full);
   warn_of_unread(unread, made.built.warnings);
   place_shapes(scene, made.built, made.scenery);
   return made;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -3,7 +3,7 @@
 
 #include "limber/common/progress.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// Reports one of the stages of a command with its number: "2 of 3,
 /// simulating".
@@ -11,4 +11,4 @@ namespace limber::app {
 [[nodiscard]] Progress number_stage(const Progress& progress, int stage,
                                     int count);
 
-}  // namespace limber::app
+}  // namespace limber::runs
