@@ -54,6 +54,10 @@ struct MatrixModel {
   /// For pictures only: edges and triangles of elements, as node indices.
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> triangles;
+  /// The last nodes, on faces of shells and outlines of beams, that are there
+  /// for pictures only.
+  std::size_t drawn = 0;
+  std::vector<std::string> notices;  ///< what is questionable
 };
 
 }  // namespace limber::fem

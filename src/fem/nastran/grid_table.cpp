@@ -102,6 +102,16 @@ Vector3 GridTable::find_position(const Grid& grid) {
                   *grid.line);
 }
 
+std::optional<Matrix3> GridTable::find_axes(int system, const DeckLine& user) {
+  const System* const known = solve(system, user);
+  if (known == nullptr) return std::nullopt;
+  if (known->kind == Kind::rectangular) return known->R;
+  problems_->add(user, fmt::format("coordinate system {} is curvilinear. "
+                                   "Expected a rectangular one.",
+                                   system));
+  return std::nullopt;
+}
+
 Vector3 GridTable::to_rectangular(Kind kind, const Vector3& coordinates) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const double r = coordinates[0];

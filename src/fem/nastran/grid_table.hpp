@@ -32,6 +32,9 @@ class GridTable {
   /// In the basic system [deck units]; a problem is added, and zero returned,
   /// if a system is missing, degenerate or depends on itself.
   Vector3 find_position(const Grid& grid);
+  /// Axes of a rectangular system as columns, in the basic one; none, and a
+  /// problem, if it is missing or curvilinear. @param user for messages
+  std::optional<Matrix3> find_axes(int system, const DeckLine& user);
 
  private:
   enum class Kind { rectangular, cylindrical, spherical };

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/abaqus_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/common/upper_case.hpp"
+
+namespace limber::fem {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+[[noreturn]] void fail_section(const AbaqusSection& section,
+                               const std::string& what) {
+  throw InputError(fmt::format("{}: {}", section.place, what));
+}
+
+double read_real(const TextScanner& at, std::string_view field) {
+  double value = 0.0;
+  if (!field.empty() && !parse_real(field, value))
+    at.fail(
+        fmt::format("'{}' is no finite number. Expected one.", echo(field)));
+  return value;
+}
+
+/// Number `i` of a section's data line; 0 where it is blank or absent.
+double read_real(const AbaqusSection& section, std::size_t line,
+                 std::size_t i) {
+  double value = 0.0;
+  if (line >= section.lines.size() || i >= section.lines[line].size() ||
+      section.lines[line][i].empty())
+    return value;
+  if (!parse_real(section.lines[line][i], value))
+    fail_section(section, fmt::format("'{}' is no finite number. Expected one.",
+                                      echo(section.lines[line][i])));
+  return value;
+}
+
+Vector3 take_vector(const AbaqusSection& section, std::size_t line) {
+  return {read_real(section, line, 0), read_real(section, line, 1),
+          read_real(section, line, 2)};
+}
+
+}  // namespace
+
+bool AbaqusSections::begin(const TextScanner& at, const Keyword& keyword) {
+  const std::string& name = keyword.name;
+  reading_ = name;
+  if (name == "MATERIAL") {
+    name_ = keyword.get("NAME");
+    if (!materials_.emplace(name_, Material{}).second)
+      at.fail(
+          fmt::format("material {} is there twice. Expected a name of its "
+                      "own.",
+                      echo(name_)));
+    materials_[name_].place =
+        fmt::format("{}:{}", at.file().string(), at.number());
+  } else if (name == "ELASTIC") {
+    materials_[name_].kind = keyword.get("TYPE");
+  } else if (name == "ORIENTATION") {
+    name_ = keyword.get("NAME");
+    const std::string system = keyword.get("SYSTEM");
+    if (!system.empty() && !system.starts_with('R'))
+      at.fail("*ORIENTATION is curvilinear. Expected SYSTEM=RECTANGULAR.");
+  } else if (name == "BEAM SECTION" || name == "SHELL SECTION") {
+    begin_section(at, keyword);
+  } else if (name != "DENSITY") {
+    reading_.clear();
+  }
+  return !reading_.empty();
+}
+
+void AbaqusSections::begin_section(const TextScanner& at,
+                                   const Keyword& keyword) {
+  for (const char* key :
+       {"OFFSET", "OFFSET1", "OFFSET2", "NODAL THICKNESS", "STACK DIRECTION"})
+    if (keyword.has(key))
+      at.fail(fmt::format("*{} has {}, which is not read. Expected none.",
+                          echo(keyword.name), key));
+  AbaqusSection section;
+  section.place = fmt::format("{}:{}", at.file().string(), at.number());
+  section.elset = keyword.get("ELSET");
+  section.is_beam = keyword.name.starts_with("BEAM");
+  section.material = keyword.get("MATERIAL");
+  section.orientation = keyword.get("ORIENTATION");
+  section.shape = keyword.get("SECTION");
+  section.is_composite = keyword.has("COMPOSITE");
+  sections_.push_back(std::move(section));
+}
+
+void AbaqusSections::add_data(const TextScanner& at, std::string_view line) {
+  const std::vector<std::string_view> fields = split_commas(line);
+  if (reading_ == "ELASTIC") {
+    Material& material = materials_[name_];
+    const std::size_t most = material.kind.starts_with("ENG") ? 16 : 8;
+    if (material.elastic.size() >= most)
+      at.fail("*ELASTIC depends on the temperature. Expected one line of it.");
+    for (const std::string_view field : fields)
+      material.elastic.push_back(read_real(at, field));
+    if (!material.kind.starts_with("ENG") || material.elastic.size() > 8)
+      material.elastic.resize(most);
+  } else if (reading_ == "DENSITY") {
+    if (!materials_[name_].density)
+      materials_[name_].density = read_real(at, fields[0]);
+  } else if (reading_ == "ORIENTATION") {
+    add_orientation(at, line);
+  } else if (!sections_.empty()) {
+    std::vector<std::string> texts;
+    for (const std::string_view field : fields)
+      texts.push_back(to_upper(std::string(field)));
+    sections_.back().lines.push_back(std::move(texts));
+  }
+}
+
+/// Points on axis 1 and in the plane 1 2; then the axis of a further rotation,
+/// and its angle.
+void AbaqusSections::add_orientation(const TextScanner& at,
+                                     std::string_view line) {
+  std::vector<double> values;
+  for (const std::string_view field : split_commas(line))
+    values.push_back(read_real(at, field));
+  values.resize(6);
+  if (axes_.contains(name_)) {
+    if (values[0] != 3.0 && values[1] != 0.0)
+      at.fail(
+          "*ORIENTATION rotates about another axis than 3. Expected 3, the "
+          "normal of the shell.");
+    orientations_[name_] =
+        exp_rotation(kDegree * values[1] * axes_[name_].col(2)) *
+        Vector3(axes_[name_].col(0));
+    return;
+  }
+  const Vector3 a(values[0], values[1], values[2]);
+  const Vector3 normal = a.cross(Vector3(values[3], values[4], values[5]));
+  if (!(normal.norm() > 0.0))
+    at.fail(
+        "*ORIENTATION has two points on one line with the origin. Expected "
+        "one on axis 1 and one in the plane of axes 1 and 2.");
+  axes_[name_] << a.normalized(), normal.cross(a).normalized(),
+      normal.normalized();
+  orientations_[name_] = a.normalized();
+}
+
+PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
+                                          const std::string& name) const {
+  const auto found = materials_.find(name);
+  if (found == materials_.end())
+    fail_section(section, fmt::format("its material {} is missing. Expected a "
+                                      "*MATERIAL of this name.",
+                                      echo(name)));
+  const Material& m = found->second;
+  const auto& e = m.elastic;
+  PlyMaterial ply;
+  if (e.empty()) {
+    fail_section(section, fmt::format("its material {} has no *ELASTIC. "
+                                      "Expected its constants.",
+                                      echo(name)));
+  } else if (m.kind.empty() || m.kind.starts_with("ISO")) {
+    ply = make_isotropic(e[0], e[1], 0.0);
+  } else if (m.kind == "LAMINA") {
+    ply = {e[0], e[1], e[2], e[3], e[4], e[5], 0.0};
+  } else if (m.kind.starts_with("ENG") && e.size() == 16) {
+    ply = {e[0], e[1], e[3], e[6], e[7], e[8], 0.0};
+  } else {
+    throw InputError(fmt::format(
+        "{}: *ELASTIC of type {} is not read for beams and shells. Expected "
+        "ISOTROPIC, LAMINA or ENGINEERING CONSTANTS, all of them.",
+        m.place, echo(m.kind)));
+  }
+  if (!(ply.E_1 > 0.0 && ply.E_2 > 0.0 && ply.G_12 > 0.0 && ply.G_13 > 0.0 &&
+        ply.G_23 > 0.0 && ply.nu_12 * ply.nu_12 < ply.E_1 / ply.E_2))
+    throw InputError(fmt::format(
+        "{}: its elastic constants are out of range. Expected moduli > 0 and "
+        "nu12^2 < E1 / E2; of an isotropic material nu in (-1, 0.5].",
+        m.place));
+  if (!m.density || !(*m.density > 0.0))
+    throw InputError(
+        fmt::format("{}: it has no *DENSITY > 0. Expected one.", m.place));
+  ply.density = *m.density;
+  return ply;
+}
+
+BeamProperty AbaqusSections::make_beam(const AbaqusSection& section) const {
+  const PlyMaterial m = find_material(section, section.material);
+  if (m.E_1 != m.E_2)
+    fail_section(section, "its material is not isotropic. Expected E and nu.");
+  const double nu = m.nu_12;
+  const auto d = [&](std::size_t i) { return read_real(section, 0, i - 1); };
+  BeamProperty property{{}, {m.E_1, m.G_12, m.density}};
+  bool is_fine = false;
+  if (section.shape == "RECT") {  // along axes 1 and 2
+    is_fine = d(1) > 0.0 && d(2) > 0.0;
+    if (is_fine) property.section = make_rectangle(d(1), d(2), nu);
+  } else if (section.shape == "CIRC") {
+    is_fine = d(1) > 0.0;
+    if (is_fine) property.section = make_tube(d(1), 0.0, nu);
+  } else if (section.shape == "PIPE") {
+    is_fine = d(1) > d(2) && d(2) > 0.0;
+    if (is_fine) property.section = make_tube(d(1), d(1) - d(2), nu);
+  } else if (section.shape == "BOX") {
+    is_fine = d(3) > 0.0 && d(3) == d(5) && d(4) > 0.0 && d(4) == d(6) &&
+              d(1) > 2.0 * d(3) && d(2) > 2.0 * d(4);
+    if (is_fine)  // walls across axis 1 first
+      property.section = make_box(d(1), d(2), d(3), d(4), nu);
+  } else {
+    fail_section(section,
+                 fmt::format("the section {} is not read. Expected RECT, CIRC, "
+                             "PIPE or BOX.",
+                             echo(section.shape)));
+  }
+  if (!is_fine)
+    fail_section(section,
+                 fmt::format("its dimensions give no section {}. Expected them "
+                             "> 0, walls thinner than the section, opposite "
+                             "walls alike.",
+                             section.shape));
+  return property;
+}
+
+Vector3 AbaqusSections::find_beam_axis(const AbaqusSection& section) {
+  if (section.lines.size() < 2) return {0.0, 0.0, -1.0};
+  return take_vector(section, 1);
+}
+
+Laminate AbaqusSections::make_shell(const AbaqusSection& section) const {
+  std::vector<Ply> plies;
+  if (!section.is_composite) {
+    plies.push_back({find_material(section, section.material),
+                     read_real(section, 0, 0), 0.0});
+  } else {
+    for (std::size_t i = 0; i < section.lines.size(); ++i) {
+      const std::vector<std::string>& fields = section.lines[i];
+      plies.push_back(
+          {find_material(section,
+                         fields.size() > 2 ? fields[2] : std::string()),
+           read_real(section, i, 0), kDegree * read_real(section, i, 3)});
+    }
+  }
+  double thickness = 0.0;
+  for (const Ply& ply : plies) {
+    if (!(ply.thickness > 0.0))
+      fail_section(section, "a thickness is missing or not > 0. Expected one.");
+    thickness += ply.thickness;
+  }
+  if (plies.empty())
+    fail_section(section, "it has no layers. Expected one at least.");
+  return make_laminate(plies, -0.5 * thickness);
+}
+
+std::optional<Vector3> AbaqusSections::find_shell_axis(
+    const AbaqusSection& section) const {
+  if (section.orientation.empty()) return std::nullopt;
+  const auto found = orientations_.find(section.orientation);
+  if (found == orientations_.end())
+    fail_section(section, fmt::format("its orientation {} is missing. Expected "
+                                      "an *ORIENTATION of this name.",
+                                      echo(section.orientation)));
+  return found->second;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/beam_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace limber::fem {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double calc_rectangle_shear(double nu) {
+  return 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
+}
+
+/// It = a b^3 (1/3 - 64 b / (pi^5 a) sum_odd tanh(n pi a / 2b) / n^5), a >= b
+double calc_rectangle_torsion(double height, double width) {
+  constexpr int kTerms = 60;
+  const double a = std::max(height, width);
+  const double b = std::min(height, width);
+  double sum = 0.0;
+  for (int n = 1; n < kTerms; n += 2)
+    sum += std::tanh(0.5 * n * kPi * a / b) / std::pow(n, 5);
+  return a * b * b * b * (1.0 / 3.0 - 64.0 * b / (std::pow(kPi, 5) * a) * sum);
+}
+
+/// Shear along the webs of thin-walled sections: @param m area of the flanges
+/// to that of the webs @param n width to height @param rest terms of the kind
+double calc_thin_shear(double m, double nu, double rest) {
+  const double m2 = m * m;
+  const double m3 = m2 * m;
+  return 10.0 * (1.0 + nu) * (1.0 + 3.0 * m) * (1.0 + 3.0 * m) /
+         (12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3 +
+          nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3) + rest);
+}
+
+/// @param walls thickness of each wall along the shear, two of them
+double calc_box_shear(double height, double width, double walls, double others,
+                      double nu) {
+  const double h = height - others;
+  const double b = width - walls;
+  const double m = b * others / (h * walls);
+  const double n = b / h;
+  return calc_thin_shear(m, nu, 10.0 * n * n * ((3.0 + nu) * m + 3.0 * m * m));
+}
+
+double calc_square(double height, double width) {  // int y^2 dA
+  return width * height * height * height / 12.0;
+}
+
+}  // namespace
+
+BeamSection make_tube(double outer, double inner, double nu) {
+  const double a2 = outer * outer;
+  const double b2 = inner * inner;
+  const double m = inner / outer;
+  const double s = (1.0 + m * m) * (1.0 + m * m);
+  BeamSection section;
+  section.area = kPi * (a2 - b2);
+  section.I_y = section.I_z = 0.25 * kPi * (a2 * a2 - b2 * b2);
+  section.torsion = 2.0 * section.I_y;
+  section.shear_y = section.shear_z =
+      6.0 * (1.0 + nu) * s /
+      ((7.0 + 6.0 * nu) * s + (20.0 + 12.0 * nu) * m * m);
+  section.half_height = section.half_width = outer;
+  section.is_round = true;
+  return section;
+}
+
+BeamSection make_rectangle(double height, double width, double nu) {
+  BeamSection section;
+  section.area = height * width;
+  section.I_z = calc_square(height, width);
+  section.I_y = calc_square(width, height);
+  section.torsion = calc_rectangle_torsion(height, width);
+  section.shear_y = section.shear_z = calc_rectangle_shear(nu);
+  section.half_height = 0.5 * height;
+  section.half_width = 0.5 * width;
+  return section;
+}
+
+BeamSection make_box(double height, double width, double top, double side,
+                     double nu) {
+  const double h = height - 2.0 * top;
+  const double b = width - 2.0 * side;
+  BeamSection section;
+  section.area = height * width - h * b;
+  section.I_z = calc_square(height, width) - calc_square(h, b);
+  section.I_y = calc_square(width, height) - calc_square(b, h);
+  const double enclosed = (height - top) * (width - side);
+  section.torsion = 4.0 * enclosed * enclosed /
+                    (2.0 * (width - side) / top + 2.0 * (height - top) / side);
+  section.shear_y = calc_box_shear(height, width, side, top, nu);
+  section.shear_z = calc_box_shear(width, height, top, side, nu);
+  section.half_height = 0.5 * height;
+  section.half_width = 0.5 * width;
+  return section;
+}
+
+BeamSection make_i_section(double height, double width, double flange,
+                           double web, double nu) {
+  const double inner = height - 2.0 * flange;
+  const double h = height - flange;
+  const double m = 2.0 * width * flange / (h * web);
+  const double n = width / h;
+  BeamSection section;
+  section.area = 2.0 * width * flange + inner * web;
+  section.I_z = calc_square(height, width) - calc_square(inner, width - web);
+  section.I_y = 2.0 * calc_square(width, flange) + calc_square(web, inner);
+  section.torsion =
+      (2.0 * width * std::pow(flange, 3) + inner * std::pow(web, 3)) / 3.0;
+  section.shear_y = calc_thin_shear(
+      m, nu,
+      30.0 * n * n * (m + m * m) + 5.0 * nu * n * n * (8.0 * m + 9.0 * m * m));
+  section.shear_z =
+      calc_rectangle_shear(nu) * 2.0 * width * flange / section.area;
+  section.half_height = 0.5 * height;
+  section.half_width = 0.5 * width;
+  return section;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace limber::fem {
+
+/// Cross-section of a beam about its centroid, which is its shear centre. Axes
+/// y and z of the section; x is that of the beam. Units are those of the model.
+struct BeamSection {
+  double area = 0.0;  ///< A > 0 [length^2]
+  double I_y = 0.0;   ///< int z^2 dA > 0, bending in the plane x z [length^4]
+  double I_z = 0.0;   ///< int y^2 dA > 0, bending in the plane x y [length^4]
+  double I_yz = 0.0;  ///< int y z dA [length^4]
+  double torsion = 0.0;  ///< It > 0, without warping [length^4]
+  /// Shear factors: the shear force along y is shear_y G A gamma; 0: no shear
+  /// flexibility (Euler and Bernoulli) [-].
+  double shear_y = 0.0;
+  double shear_z = 0.0;      ///< the same along z [-]
+  double extra_mass = 0.0;   ///< on the axis, without rotary inertia
+                             ///< [mass/length]
+  double half_height = 0.0;  ///< of pictures, along y [length]
+  double half_width = 0.0;   ///< of pictures, along z [length]
+  bool is_round = false;     ///< of pictures
+};
+
+/// Shear factors of all: Cowper, The Shear Coefficient in Timoshenko's Beam
+/// Theory, J. Appl. Mech. 33 (1966) 335-340. @param nu Poisson's ratio [-]
+
+/// Ring of outer and inner radius, 0 <= inner < outer.
+[[nodiscard]] BeamSection make_tube(double outer, double inner, double nu);
+
+/// @param height along y @param width along z
+/// Torsion: series of Saint-Venant.
+[[nodiscard]] BeamSection make_rectangle(double height, double width,
+                                         double nu);
+
+/// Rectangular tube, outer sizes as above.
+/// @param top thickness of the two walls along z @param side of those along y
+/// Torsion: Bredt.
+[[nodiscard]] BeamSection make_box(double height, double width, double top,
+                                   double side, double nu);
+
+/// Doubly symmetric I, web along y.
+/// Torsion: thin open walls, sum b t^3 / 3. The factor along z is that of the
+/// two flanges as rectangles.
+[[nodiscard]] BeamSection make_i_section(double height, double width,
+                                         double flange, double web, double nu);
+
+}  // namespace limber::fem

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/draw_structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "limber/common/index.hpp"
+#include "limber/common/rotation.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// A node of a shell as its faces have it: elements around it whose normals
+/// differ little share one, others beyond a fold have their own.
+struct FaceNode {
+  Vector3 normal;  ///< of the first element
+  Vector3 sum;     ///< of all
+  double bottom;
+  double top;
+  std::array<int, 2> drawn;  ///< nodes of the model below and above
+};
+
+class StructureDrawer {
+ public:
+  StructureDrawer(const Structure& structure, const std::vector<int>& places,
+                  const std::vector<NodeMotion>& motions, MatrixModel& model)
+      : structure_(structure),
+        places_(places),
+        motions_(motions),
+        model_(model) {}
+
+  void draw() {
+    next_tag_ = find_first_tag();
+    add_led_nodes();
+    draw_shells();
+    for (const StructureBeam& beam : structure_.beams) draw_beam(beam);
+    finish();
+  }
+
+ private:
+  /// A power of ten beyond all tags.
+  [[nodiscard]] std::size_t find_first_tag() const {
+    std::size_t tag = 1;
+    for (const std::size_t other : structure_.tags)
+      while (tag <= other) tag *= 10;
+    return tag + 1;
+  }
+
+  void add_row(int node, int component, const NodeMotion& motion,
+               const Vector3& arm) {
+    const auto row = static_cast<int>(model_.condensed.size());
+    model_.condensed.push_back({node, component});
+    entries_.emplace_back(row, motion.row + component, 1.0);
+    if (component > 2) return;
+    const Matrix3 turn = -skew(arm);
+    for (int c = 0; c < 3; ++c)
+      if (turn(component, c) != 0.0)
+        entries_.emplace_back(row, motion.row + 3 + c, turn(component, c));
+  }
+
+  void add_led_nodes() {
+    for (std::size_t n = 0; n < places_.size(); ++n) {
+      if (places_[n] < 0) continue;
+      const MatrixRow& first = model_.rows[index(motions_[n].row)];
+      if (first.node == places_[n]) continue;
+      for (int c = 0; c < 6; ++c)
+        add_row(places_[n], c, motions_[n], motions_[n].arm);
+    }
+  }
+
+  /// A node at `d` from another, with which it moves. @returns its index
+  int add_node(int node, const Vector3& d) {
+    const auto drawn = static_cast<int>(model_.tags.size());
+    model_.tags.push_back(next_tag_++);
+    points_.push_back(structure_.x.col(node) + d);
+    const NodeMotion& motion = motions_[index(node)];
+    for (int c = 0; c < 3; ++c) add_row(drawn, c, motion, motion.arm + d);
+    return drawn;
+  }
+
+  void add_quad(int a, int b, int c, int d) {
+    model_.triangles.push_back({a, b, c});
+    model_.triangles.push_back({a, c, d});
+  }
+
+  // ---- shells
+  int find_face_node(int node, const Vector3& normal, double bottom,
+                     double top) {
+    constexpr double kFold = 0.866;  // cos 30 degrees
+    for (const int i : faces_of_[node]) {
+      FaceNode& face = face_nodes_[index(i)];
+      if (face.normal.dot(normal) < kFold || face.bottom != bottom ||
+          face.top != top)
+        continue;
+      face.sum += normal;
+      return i;
+    }
+    faces_of_[node].push_back(static_cast<int>(face_nodes_.size()));
+    face_nodes_.push_back({normal, normal, bottom, top, {-1, -1}});
+    base_.push_back(node);
+    return static_cast<int>(face_nodes_.size()) - 1;
+  }
+
+  void draw_shells() {
+    std::vector<std::vector<int>> polygons;
+    std::map<std::pair<int, int>, int> sides;
+    for (const StructureShell& shell : structure_.shells) {
+      const Laminate& laminate = structure_.laminates[index(shell.laminate)];
+      const std::vector<int>& nodes = shell.nodes;
+      const Vector3 normal = Vector3(structure_.x.col(nodes[2 % nodes.size()]) -
+                                     structure_.x.col(nodes[0]))
+                                 .cross(Vector3(structure_.x.col(nodes.back()) -
+                                                structure_.x.col(nodes[1])))
+                                 .normalized();
+      std::vector<int> polygon;
+      for (const int node : nodes)
+        polygon.push_back(find_face_node(node, normal,
+                                         laminate.bottom + shell.offset,
+                                         laminate.top + shell.offset));
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        ++sides[{polygon[i], polygon[(i + 1) % polygon.size()]}];
+      polygons.push_back(std::move(polygon));
+    }
+    for (std::size_t i = 0; i < face_nodes_.size(); ++i) {
+      FaceNode& face = face_nodes_[i];
+      const Vector3 n = face.sum.normalized();
+      face.drawn = {add_node(base_[i], face.bottom * n),
+                    add_node(base_[i], face.top * n)};
+    }
+    for (const std::vector<int>& polygon : polygons) draw_shell(polygon, sides);
+  }
+
+  void draw_shell(const std::vector<int>& polygon,
+                  const std::map<std::pair<int, int>, int>& sides) {
+    const auto drawn = [&](std::size_t i, std::size_t side) {
+      return face_nodes_[index(polygon[i % polygon.size()])].drawn[side];
+    };
+    model_.triangles.push_back({drawn(0, 1), drawn(1, 1), drawn(2, 1)});
+    model_.triangles.push_back({drawn(0, 0), drawn(2, 0), drawn(1, 0)});
+    if (polygon.size() == 4) {
+      model_.triangles.push_back({drawn(0, 1), drawn(2, 1), drawn(3, 1)});
+      model_.triangles.push_back({drawn(0, 0), drawn(3, 0), drawn(2, 0)});
+    }
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const int a = polygon[i];
+      const int b = polygon[(i + 1) % polygon.size()];
+      const auto other = sides.find({b, a});
+      const bool is_inside =
+          other != sides.end() && other->second == 1 && sides.at({a, b}) == 1;
+      if (is_inside) continue;
+      add_quad(drawn(i, 0), drawn(i + 1, 0), drawn(i + 1, 1), drawn(i, 1));
+    }
+  }
+
+  // ---- beams
+  [[nodiscard]] static std::vector<std::array<double, 2>> list_outline(
+      const BeamSection& section) {
+    double y = section.half_height;
+    double z = section.half_width;
+    if (!(y > 0.0 && z > 0.0)) {  // a rectangle of these moments
+      y = std::sqrt(3.0 * section.I_z / section.area);
+      z = std::sqrt(3.0 * section.I_y / section.area);
+    }
+    if (!section.is_round) return {{-y, -z}, {y, -z}, {y, z}, {-y, z}};
+    constexpr int kCorners = 12;
+    std::vector<std::array<double, 2>> outline;
+    for (int i = 0; i < kCorners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kCorners;
+      outline.push_back({y * std::cos(angle), z * std::sin(angle)});
+    }
+    return outline;
+  }
+
+  void draw_beam(const StructureBeam& beam) {
+    const Matrix3 axes = find_beam_axes(
+        {{structure_.x.col(beam.nodes[0]), structure_.x.col(beam.nodes[1])},
+         beam.offsets,
+         beam.up});
+    const auto outline =
+        list_outline(structure_.beam_properties[index(beam.property)].section);
+    std::array<std::vector<int>, 2> rings;
+    for (std::size_t end = 0; end < 2; ++end)
+      for (const auto& [y, z] : outline)
+        rings[end].push_back(
+            add_node(beam.nodes[end],
+                     beam.offsets[end] + y * axes.col(1) + z * axes.col(2)));
+    const std::size_t n = outline.size();
+    for (std::size_t i = 0; i < n; ++i)
+      add_quad(rings[0][i], rings[0][(i + 1) % n], rings[1][(i + 1) % n],
+               rings[1][i]);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      model_.triangles.push_back({rings[0][0], rings[0][i + 1], rings[0][i]});
+      model_.triangles.push_back({rings[1][0], rings[1][i], rings[1][i + 1]});
+    }
+  }
+
+  void finish() {
+    const Eigen::Index own = model_.x.cols();
+    Matrix3X x(3, own + static_cast<Eigen::Index>(points_.size()));
+    x.leftCols(own) = model_.x;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      x.col(own + static_cast<Eigen::Index>(i)) = points_[i];
+    model_.x = std::move(x);
+    model_.drawn = points_.size();
+    model_.equations.resize(static_cast<Eigen::Index>(model_.condensed.size()),
+                            static_cast<Eigen::Index>(model_.rows.size()));
+    model_.equations.setFromTriplets(entries_.begin(), entries_.end());
+  }
+
+  const Structure& structure_;
+  const std::vector<int>& places_;
+  const std::vector<NodeMotion>& motions_;
+  MatrixModel& model_;
+  std::size_t next_tag_ = 1;
+  std::vector<Vector3> points_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<FaceNode> face_nodes_;
+  std::vector<int> base_;  // nodes of face_nodes_
+  std::map<int, std::vector<int>> faces_of_;
+};
+
+}  // namespace
+
+void draw_structure(const Structure& structure, const std::vector<int>& places,
+                    const std::vector<NodeMotion>& motions,
+                    MatrixModel& model) {
+  StructureDrawer(structure, places, motions, model).draw();
+}
+
+}  // namespace limber::fem

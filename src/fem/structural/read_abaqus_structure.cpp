@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/read_abaqus_structure.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/fem/abaqus/solid_type.hpp"
+#include "limber/fem/structural/abaqus_sections.hpp"
+#include "limber/fem/text/deck_sets.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// They constrain, make or move nodes, and are not read.
+constexpr std::array<std::string_view, 23> kLost = {"EQUATION",
+                                                    "MPC",
+                                                    "TIE",
+                                                    "COUPLING",
+                                                    "KINEMATIC",
+                                                    "DISTRIBUTING",
+                                                    "KINEMATIC COUPLING",
+                                                    "DISTRIBUTING COUPLING",
+                                                    "SHELL TO SOLID COUPLING",
+                                                    "CYCLIC SYMMETRY MODEL",
+                                                    "CONTACT PAIR",
+                                                    "SYSTEM",
+                                                    "NGEN",
+                                                    "NFILL",
+                                                    "NCOPY",
+                                                    "NMAP",
+                                                    "ELGEN",
+                                                    "ELCOPY",
+                                                    "BEAM GENERAL SECTION",
+                                                    "SHELL GENERAL SECTION",
+                                                    "ROTARY INERTIA",
+                                                    "NODAL THICKNESS",
+                                                    "SUBSTRUCTURE PROPERTY"};
+
+constexpr std::array<std::string_view, 5> kOutside = {
+    "BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"};
+
+enum class LineKind { none, node, element, nset, elset, mass, section };
+
+bool is_shell_type(std::string_view type, std::string_view name) {
+  return type == name || (type.size() == name.size() + 1 &&
+                          type.starts_with(name) && type.back() == 'R');
+}
+
+/// Nodes of an element type; 0: it is not read.
+std::size_t count_type_nodes(std::string_view type) {
+  if (type == "MASS") return 1;
+  if (type == "B31" || type == "B31R") return 2;
+  if (is_shell_type(type, "S3")) return 3;
+  if (is_shell_type(type, "S4")) return 4;
+  return 0;
+}
+
+struct InputElement {
+  std::string type;
+  std::vector<int> nodes;  // numbers, then indices
+  std::string place;
+};
+
+class StructureDeckReader {
+ public:
+  explicit StructureDeckReader(const std::filesystem::path& file) {
+    structure_.source = file.string();
+    structure_.files.push_back(file);
+  }
+
+  Structure read() {
+    read_keyword_deck(structure_.files[0],
+                      {[this](const TextScanner& at, const Keyword& keyword) {
+                         note_file(at);
+                         return begin(at, keyword);
+                       },
+                       [this](const TextScanner& at, std::string_view line) {
+                         note_file(at);
+                         add_data(at, line);
+                       }});
+    if (!element_.empty())
+      throw InputError(fmt::format(
+          "{}: the last element is not complete. Expected more nodes.",
+          structure_.source));
+    number_nodes();
+    for (const AbaqusSection& section : sections_.sections()) assign(section);
+    add_masses();
+    check_described();
+    add_rigids();
+    add_sets();
+    report();
+    return std::move(structure_);
+  }
+
+ private:
+  void note_file(const TextScanner& at) {
+    if (std::ranges::find(structure_.files, at.file()) ==
+        structure_.files.end())
+      structure_.files.push_back(at.file());
+  }
+
+  /// @returns whether its data are read from another file, too
+  bool begin(const TextScanner& at, const Keyword& keyword) {
+    if (!element_.empty())
+      at.fail("the element before it is not complete. Expected more nodes.");
+    keyword_ = keyword;
+    const std::string& name = keyword.name;
+    if (std::ranges::find(kLost, name) != kLost.end())
+      at.fail(
+          fmt::format("*{} is not read among beams and shells and would be "
+                      "lost. Expected *NODE, *ELEMENT, sections, *MASS and "
+                      "*RIGID BODY.",
+                      name));
+    if (std::ranges::find(kOutside, name) != kOutside.end()) ++unused_[name];
+    if (name == "INSTANCE" && ++instances_ > 1)
+      at.fail("a second *INSTANCE. Expected one part of one instance.");
+    for (const char* key : {"NSET", "ELSET"})
+      if (keyword.has(key))
+        spelling_.try_emplace(keyword.get(key), keyword_.spelled[key]);
+    kind_ = LineKind::none;
+    if (sections_.begin(at, keyword)) {
+      kind_ = LineKind::section;
+    } else if (name == "NODE") {
+      if (keyword.has("SYSTEM") && keyword.get("SYSTEM") != "R")
+        at.fail("*NODE in other coordinates. Expected global ones.");
+      kind_ = LineKind::node;
+    } else if (name == "ELEMENT") {
+      kind_ = LineKind::element;
+      if (count_type_nodes(keyword.get("TYPE")) == 0)
+        at.fail(fmt::format(
+            "elements {} are not read among beams and shells. Expected B31, "
+            "S3, S4 (or S4R) and MASS.",
+            echo(keyword.get("TYPE"))));
+    } else if (name == "NSET") {
+      kind_ = LineKind::nset;
+      if (keyword.has("ELSET"))
+        at.fail("*NSET with ELSET is not read. Expected numbers of nodes.");
+    } else if (name == "ELSET") {
+      kind_ = LineKind::elset;
+    } else if (name == "MASS") {
+      kind_ = LineKind::mass;
+    } else if (name == "RIGID BODY") {
+      add_rigid(at);
+    }
+    return kind_ == LineKind::node || kind_ == LineKind::element ||
+           kind_ == LineKind::nset || kind_ == LineKind::elset ||
+           name == "INCLUDE";
+  }
+
+  void add_data(const TextScanner& at, std::string_view line) {
+    switch (kind_) {
+      case LineKind::node:
+        return add_node(at, line);
+      case LineKind::element:
+        return add_element(at, line);
+      case LineKind::nset:
+        return node_sets_.add_line(at, keyword_, keyword_.get("NSET"), line);
+      case LineKind::elset:
+        return element_sets_.add_line(at, keyword_, keyword_.get("ELSET"),
+                                      line);
+      case LineKind::mass:
+        return add_mass(at, line);
+      case LineKind::section:
+        return sections_.add_data(at, line);
+      case LineKind::none:
+        if (keyword_.name == "INSTANCE")
+          at.fail("*INSTANCE moves its part. Expected one that is not moved.");
+    }
+  }
+
+  static double read_number(const TextScanner& at, std::string_view field) {
+    double value = 0.0;
+    if (!field.empty() && !parse_real(field, value))
+      at.fail(
+          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
+    return value;
+  }
+
+  void add_node(const TextScanner& at, std::string_view line) {
+    const std::vector<std::string_view> fields = split_commas(line);
+    const long number = read_deck_number(at, fields[0], "node");
+    Vector3 x = Vector3::Zero();
+    for (std::size_t i = 1; i < std::min<std::size_t>(fields.size(), 4); ++i)
+      x[static_cast<Eigen::Index>(i) - 1] = read_number(at, fields[i]);
+    if (!points_.emplace(number, x).second)
+      at.fail(fmt::format("node {} is there twice. Expected each node once.",
+                          number));
+    node_sets_.add(keyword_.get("NSET"), number);
+  }
+
+  /// Number, nodes; a line that ends in a comma goes on.
+  void add_element(const TextScanner& at, std::string_view line) {
+    for (const std::string_view field : split_commas(line))
+      if (!field.empty())
+        element_.push_back(read_deck_number(at, field, "element or node"));
+    if (line.ends_with(',') || element_.empty()) return;
+    const long number = element_[0];
+    InputElement element{keyword_.get("TYPE"),
+                         {element_.begin() + 1, element_.end()},
+                         fmt::format("{}:{}", at.file().string(), at.number())};
+    element_.clear();
+    // B31 may have a third node for the direction of its section.
+    const std::size_t wanted = count_type_nodes(element.type);
+    if (element.nodes.size() != wanted)
+      at.fail(fmt::format("{} {} has {} nodes. Expected {}.", element.type,
+                          number, element.nodes.size(), wanted));
+    if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() !=
+        wanted)
+      at.fail(fmt::format("{} {} has a node twice. Expected different nodes.",
+                          element.type, number));
+    element_sets_.add(keyword_.get("ELSET"), number);
+    if (!elements_.emplace(number, std::move(element)).second)
+      at.fail(fmt::format(
+          "element {} is there twice. Expected a number of its own.", number));
+  }
+
+  void add_mass(const TextScanner& at, std::string_view line) {
+    const double mass = read_number(at, split_commas(line)[0]);
+    if (!(mass >= 0.0)) at.fail("*MASS is below 0. Expected a mass.");
+    masses_[keyword_.get("ELSET")] = mass;
+  }
+
+  void add_rigid(const TextScanner& at) {
+    StructureSpider spider;
+    spider.place = fmt::format("{}:{}", at.file().string(), at.number());
+    long reference = 0;
+    if (!keyword_.has("NSET") ||
+        !parse_whole(keyword_.get("REF NODE"), reference))
+      at.fail("*RIGID BODY. Expected NSET and the number of its REF NODE.");
+    rigids_.emplace_back(keyword_.get("NSET"), static_cast<int>(reference));
+    structure_.spiders.push_back(std::move(spider));
+  }
+
+  int find_node(long number, const std::string& place) const {
+    const auto found = nodes_.find(number);
+    if (found != nodes_.end()) return found->second;
+    throw InputError(fmt::format(
+        "{}: node {} is missing. Expected it under *NODE.", place, number));
+  }
+
+  void number_nodes() {
+    structure_.x.resize(3, std::ssize(points_));
+    for (const auto& [number, x] : points_) {
+      const auto n = static_cast<int>(structure_.tags.size());
+      structure_.x.col(n) = x;
+      structure_.tags.push_back(static_cast<std::size_t>(number));
+      nodes_[number] = n;
+    }
+    for (auto& [number, element] : elements_)
+      for (int& node : element.nodes) node = find_node(node, element.place);
+  }
+
+  void assign(const AbaqusSection& section) {
+    const std::vector<long> numbers = element_sets_.get(section.elset);
+    if (numbers.empty())
+      throw InputError(fmt::format(
+          "{}: its set of elements {} is missing or empty. Expected one.",
+          section.place, echo(section.elset)));
+    const int property = make_property(section);
+    const std::optional<Vector3> axis = sections_.find_shell_axis(section);
+    for (const long number : numbers) {
+      const auto found = elements_.find(number);
+      if (found == elements_.end())
+        throw InputError(fmt::format(
+            "{}: its set {} has element {}, which is missing. Expected it "
+            "under *ELEMENT.",
+            section.place, section.elset, number));
+      const InputElement& element = found->second;
+      const bool is_beam = element.type.starts_with('B');
+      if (element.type == "MASS" || is_beam != section.is_beam)
+        throw InputError(fmt::format(
+            "{}: element {} is a {}. Expected a section of its own kind.",
+            section.place, number, element.type));
+      if (!described_.insert(number).second)
+        throw InputError(fmt::format(
+            "{}: element {} has another section already. Expected one.",
+            section.place, number));
+      if (is_beam) {
+        structure_.beams.push_back({{element.nodes[0], element.nodes[1]},
+                                    property,
+                                    AbaqusSections::find_beam_axis(section),
+                                    {Vector3::Zero(), Vector3::Zero()},
+                                    element.place});
+      } else {
+        StructureShell shell;
+        shell.nodes = element.nodes;
+        shell.laminate = property;
+        shell.axis = axis.value_or(find_default_axis(element));
+        shell.place = element.place;
+        structure_.shells.push_back(std::move(shell));
+      }
+    }
+  }
+
+  int make_property(const AbaqusSection& section) {
+    if (section.is_beam) {
+      structure_.beam_properties.push_back(sections_.make_beam(section));
+      return static_cast<int>(structure_.beam_properties.size()) - 1;
+    }
+    structure_.laminates.push_back(sections_.make_shell(section));
+    return static_cast<int>(structure_.laminates.size()) - 1;
+  }
+
+  /// x, or z where x is within 0.1 degrees of the normal (Abaqus' convention).
+  [[nodiscard]] Vector3 find_default_axis(const InputElement& element) const {
+    constexpr double kAlong = 0.9999984769132877;  // cos 0.1 degrees
+    const auto at = [&](std::size_t i) {
+      return Vector3(structure_.x.col(element.nodes[i]));
+    };
+    const std::size_t last = element.nodes.size() - 1;
+    const Vector3 n = (at(2) - at(0)).cross(at(last) - at(1)).normalized();
+    return std::abs(n.x()) > kAlong ? Vector3::UnitZ() : Vector3::UnitX();
+  }
+
+  void add_masses() {
+    for (const auto& [elset, mass] : masses_)
+      for (const long number : element_sets_.get(elset)) {
+        const auto found = elements_.find(number);
+        if (found == elements_.end() || found->second.type != "MASS") continue;
+        described_.insert(number);
+        StructureMass body;
+        body.node = found->second.nodes[0];
+        body.mass = mass;
+        body.place = found->second.place;
+        structure_.masses.push_back(std::move(body));
+      }
+  }
+
+  void check_described() const {
+    for (const auto& [number, element] : elements_)
+      if (!described_.contains(number))
+        throw InputError(fmt::format(
+            "{}: {} {} has no section. Expected a *BEAM SECTION, *SHELL "
+            "SECTION or *MASS of a set with it.",
+            element.place, element.type, number));
+  }
+
+  void add_rigids() {
+    for (std::size_t i = 0; i < rigids_.size(); ++i) {
+      StructureSpider& spider = structure_.spiders[i];
+      spider.reference = find_node(rigids_[i].second, spider.place);
+      const std::vector<long> numbers = node_sets_.get(rigids_[i].first);
+      if (numbers.empty())
+        throw InputError(fmt::format(
+            "{}: its set of nodes {} is missing or empty. Expected one.",
+            spider.place, echo(rigids_[i].first)));
+      for (const long number : std::set<long>(numbers.begin(), numbers.end()))
+        spider.nodes.push_back(find_node(number, spider.place));
+    }
+  }
+
+  void add_set(const std::string& name, const std::set<int>& nodes) {
+    const auto spelled = spelling_.find(name);
+    const std::string own = spelled == spelling_.end() ? name : spelled->second;
+    const bool is_there = std::ranges::any_of(
+        structure_.sets,
+        [&](const MatrixNodeSet& other) { return other.name == own; });
+    if (!is_there && !nodes.empty())
+      structure_.sets.push_back({own, {nodes.begin(), nodes.end()}});
+  }
+
+  void add_sets() {
+    for (const auto& [name, numbers] : node_sets_.all()) {
+      std::set<int> nodes;
+      for (const long number : numbers)
+        nodes.insert(find_node(number, structure_.source));
+      add_set(name, nodes);
+    }
+    for (const auto& [name, numbers] : element_sets_.all()) {
+      std::set<int> nodes;
+      for (const long number : numbers) {
+        const auto found = elements_.find(number);
+        if (found != elements_.end())
+          nodes.insert(found->second.nodes.begin(), found->second.nodes.end());
+      }
+      add_set(name, nodes);
+    }
+  }
+
+  void report() {
+    structure_.found.push_back(
+        fmt::format("{}: {} beams, {} shells, {} masses, {} rigid bodies",
+                    structure_.files[0].filename().string(),
+                    structure_.beams.size(), structure_.shells.size(),
+                    structure_.masses.size(), structure_.spiders.size()));
+    std::vector<std::string> unused;
+    for (const auto& [name, count] : unused_)
+      unused.push_back(fmt::format("{} *{}", count, name));
+    if (!unused.empty())
+      structure_.notices.push_back(fmt::format(
+          "{}: not used: {}. Supports and loads are those of the scene.",
+          structure_.source, fmt::join(unused, ", ")));
+  }
+
+  Structure structure_;
+  AbaqusSections sections_;
+  Keyword keyword_;
+  LineKind kind_ = LineKind::none;
+  std::map<long, Vector3> points_;
+  std::map<long, int> nodes_;
+  std::map<long, InputElement> elements_;
+  std::vector<long> element_;  // numbers of one that goes on
+  std::set<long> described_;
+  std::map<std::string, double> masses_;             // by set of elements
+  std::vector<std::pair<std::string, int>> rigids_;  // set and reference
+  DeckSets node_sets_;
+  DeckSets element_sets_;
+  std::map<std::string, std::string> spelling_;
+  std::map<std::string, int> unused_;
+  int instances_ = 0;
+};
+
+}  // namespace
+
+bool is_abaqus_structure(const std::filesystem::path& file) {
+  bool has_elements = false;
+  bool has_section = false;
+  bool has_solid = false;
+  read_keyword_deck(file, {[&](const TextScanner&, const Keyword& keyword) {
+                             const std::string type = keyword.get("TYPE");
+                             if (keyword.name == "ELEMENT") {
+                               has_solid |= find_solid_type(type) != nullptr;
+                               has_elements |= count_type_nodes(type) > 1;
+                             }
+                             has_section |= keyword.name == "BEAM SECTION" ||
+                                            keyword.name == "SHELL SECTION";
+                             return keyword.name == "INCLUDE";
+                           },
+                           [](const TextScanner&, std::string_view) {}});
+  return has_elements && has_section && !has_solid;
+}
+
+Structure read_abaqus_structure(const std::filesystem::path& file) {
+  return StructureDeckReader(file).read();
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/read_nastran_structure.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/fem/nastran/card_effect.hpp"
+#include "limber/fem/nastran/grid_table.hpp"
+#include "limber/fem/nastran/solid_card.hpp"
+#include "limber/fem/structural/nastran_properties.hpp"
+
+namespace limber::fem {
+namespace {
+
+bool is_bar(std::string_view name) { return name == "CBAR" || name == "CBEAM"; }
+
+std::size_t count_shell_nodes(std::string_view name) {
+  if (name == "CQUAD4" || name == "CQUADR") return 4;
+  if (name == "CTRIA3" || name == "CTRIAR") return 3;
+  return 0;
+}
+
+bool is_solid(std::string_view name) {
+  return std::ranges::any_of(
+      kSolidCards, [&](const SolidCard& card) { return card.name == name; });
+}
+
+bool is_whole(std::string_view field) {  // an integer, no real number
+  return !field.empty() &&
+         field.find_first_not_of("+-0123456789") == std::string_view::npos;
+}
+
+constexpr std::string_view kAllComponents = "123456";
+
+class StructureReader {
+ public:
+  explicit StructureReader(const std::filesystem::path& file)
+      : deck_(read_deck(file)),
+        problems_(deck_),
+        grids_(problems_),
+        properties_(problems_) {
+    structure_.source = file.string();
+  }
+
+  Structure read() {
+    CardReader reader(deck_, problems_);
+    BulkCard card;
+    while (reader.next(card)) add(card);
+    number_nodes();
+    for (const BulkCard& one : beams_) add_beam(one);
+    for (const BulkCard& one : shells_) add_shell(one);
+    for (const BulkCard& one : masses_) add_mass(one);
+    for (const BulkCard& one : rigids_) add_rigid(one);
+    problems_.check();
+    for (auto& [name, nodes] : sets_)
+      structure_.sets.push_back({name, {nodes.begin(), nodes.end()}});
+    report();
+    return std::move(structure_);
+  }
+
+ private:
+  void add(const BulkCard& card) {
+    if (is_bar(card.name)) {
+      beams_.push_back(card);
+    } else if (count_shell_nodes(card.name) > 0) {
+      shells_.push_back(card);
+    } else if (card.name == "CONM2") {
+      masses_.push_back(card);
+    } else if (card.name == "RBE2" || card.name == "RBAR") {
+      rigids_.push_back(card);
+    } else if (card.name == "GRID" || card.name == "GRDSET") {
+      add_point(card);
+    } else if (is_coordinate_system(card.name)) {
+      grids_.add_system(card);
+    } else if (card.name == "SPC" || card.name == "SPC1") {
+      supports_.push_back(card);
+      ++unused_[std::string(card.name)];
+    } else if (card.name == "PARAM") {
+      add_parameter(card);
+    } else if (!properties_.add(card)) {
+      add_other(card);
+    }
+  }
+
+  void add_point(const BulkCard& card) {
+    constexpr std::size_t kDisplacements = 5;  // CD
+    const std::optional<int> system =
+        card.integer(kDisplacements, 0, problems_);
+    if (system && *system > 0)
+      problems_.add(*card.line,
+                    fmt::format("{} {} has displacements in coordinate system "
+                                "{} (CD). Expected the basic one, 0.",
+                                card.name, echo(card.field(0)), *system));
+    if (card.name == "GRID") {
+      grids_.add_grid(card);
+    } else {
+      grids_.add_default(card);
+    }
+  }
+
+  void add_parameter(const BulkCard& card) {
+    if (card.field(0) != "WTMASS") return;
+    structure_.mass_factor = card.real(1, problems_).value_or(1.0);
+    if (!(structure_.mass_factor > 0.0))
+      problems_.add(*card.line, "WTMASS is not > 0. Expected a factor.");
+  }
+
+  void add_other(const BulkCard& card) {
+    const CardEffect effect = find_card_effect(card.name);
+    if (effect == CardEffect::outside) ++unused_[std::string(card.name)];
+    if (effect == CardEffect::on_body &&
+        refused_.insert(std::string(card.name)).second)
+      problems_.add(
+          *card.line,
+          fmt::format("{} is not read among beams and shells and would be "
+                      "lost. Expected CBAR, CBEAM, CQUAD4, CTRIA3, CONM2, RBE2 "
+                      "and RBAR; a body with others comes by its matrices.",
+                      card.name));
+  }
+
+  void number_nodes() {
+    std::vector<int> ids;
+    for (const auto& [id, grid] : grids_.grids()) ids.push_back(id);
+    std::sort(ids.begin(), ids.end());
+    structure_.x.resize(3, std::ssize(ids));
+    for (const int id : ids) {
+      const auto n = static_cast<int>(structure_.tags.size());
+      structure_.x.col(n) = grids_.find_position(grids_.grids().at(id));
+      structure_.tags.push_back(static_cast<std::size_t>(id));
+      nodes_[id] = n;
+    }
+    for (const BulkCard& card : supports_) add_support(card);
+  }
+
+  /// The node in a field; none, and a problem, if it is missing.
+  std::optional<int> find_node(const BulkCard& card, std::size_t field) {
+    const std::optional<int> id = card.integer(field, std::nullopt, problems_);
+    if (!id) return std::nullopt;
+    const auto found = nodes_.find(*id);
+    if (found != nodes_.end()) return found->second;
+    problems_.add(*card.line,
+                  fmt::format("{} {} has node {}, which is missing. Expected "
+                              "its GRID.",
+                              card.name, echo(card.field(0)), *id));
+    return std::nullopt;
+  }
+
+  std::optional<Vector3> find_vector(const BulkCard& card, std::size_t field) {
+    Vector3 v;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<double> value = card.real(field + i, problems_);
+      if (!value) return std::nullopt;
+      v[static_cast<Eigen::Index>(i)] = *value;
+    }
+    return v;
+  }
+
+  bool take_number(const BulkCard& card) {
+    const std::optional<int> id = card.integer(0, std::nullopt, problems_);
+    if (!id) return false;
+    if (*id > 0 && elements_.insert(*id).second) return true;
+    problems_.add(*card.line,
+                  fmt::format("element {} is there twice, or below 1. Expected "
+                              "a number of its own.",
+                              *id));
+    return false;
+  }
+
+  void refuse_given(const BulkCard& card, std::size_t first, std::size_t last,
+                    const char* what) {
+    for (std::size_t i = first; i <= last; ++i)
+      if (!card.field(i).empty() && card.field(i) != "0")
+        return problems_.add(
+            *card.line, fmt::format("{} {}: {} is not read. Expected none.",
+                                    card.name, echo(card.field(0)), what));
+  }
+
+  /// Position in a list of the property with this number, made on first use.
+  template <typename Property, typename Find>
+  std::optional<int> take_property(int id, std::map<int, int>& known,
+                                   std::vector<Property>& list,
+                                   const Find& find) {
+    const auto found = known.find(id);
+    if (found != known.end()) return found->second;
+    const std::optional<Property> property = find();
+    if (!property) return std::nullopt;
+    known[id] = static_cast<int>(list.size());
+    list.push_back(*property);
+    return known[id];
+  }
+
+  void add_to_set(const std::string& name, const std::vector<int>& nodes) {
+    sets_[name].insert(nodes.begin(), nodes.end());
+  }
+
+  void add_beam(const BulkCard& card) {
+    if (!take_number(card)) return;
+    const std::optional<int> id =
+        card.integer(1, card.integer(0, std::nullopt, problems_), problems_);
+    const std::optional<int> a = find_node(card, 2);
+    const std::optional<int> b = find_node(card, 3);
+    if (!card.field(7).empty() && card.field(7) != "GGG")
+      problems_.add(
+          *card.line,
+          fmt::format("{} {}: OFFT is {}. Expected GGG, or blank.", card.name,
+                      echo(card.field(0)), echo(card.field(7))));
+    refuse_given(card, 8, 9, "a hinge (PA, PB)");
+    if (card.name == "CBEAM")
+      refuse_given(card, 16, 17, "a warping point (SA, SB)");
+    const std::optional<Vector3> from_a = find_vector(card, 10);
+    const std::optional<Vector3> from_b = find_vector(card, 13);
+    if (!id || !a || !b || !from_a || !from_b) return;
+    const std::optional<Vector3> up = find_up(card, *a);
+    const std::optional<int> property =
+        take_property(*id, beam_of_, structure_.beam_properties,
+                      [&] { return properties_.find_beam(*id, *card.line); });
+    if (!up || !property) return;
+    structure_.beams.push_back({{*a, *b},
+                                *property,
+                                *up,
+                                {*from_a, *from_b},
+                                deck_.place_of(*card.line)});
+    add_to_set(std::to_string(*id), {*a, *b});
+  }
+
+  /// X1, X2, X3, or towards the point G0.
+  std::optional<Vector3> find_up(const BulkCard& card, int a) {
+    const bool is_point = is_whole(card.field(4)) && card.field(5).empty() &&
+                          card.field(6).empty();
+    if (!is_point) return find_vector(card, 4);
+    const std::optional<int> point = find_node(card, 4);
+    if (!point) return std::nullopt;
+    return Vector3(structure_.x.col(*point) - structure_.x.col(a));
+  }
+
+  void add_shell(const BulkCard& card) {
+    if (!take_number(card)) return;
+    const std::optional<int> id =
+        card.integer(1, card.integer(0, std::nullopt, problems_), problems_);
+    const std::size_t count = count_shell_nodes(card.name);
+    StructureShell shell;
+    for (std::size_t i = 0; i < count; ++i)
+      if (const std::optional<int> node = find_node(card, 2 + i))
+        shell.nodes.push_back(*node);
+    if (!id || shell.nodes.size() != count) return;
+    const std::size_t angle = 2 + count;
+    const std::optional<int> laminate =
+        take_property(*id, shell_of_, structure_.laminates,
+                      [&] { return properties_.find_shell(*id, *card.line); });
+    if (!laminate || !set_axis(card, angle, shell)) return;
+    shell.laminate = *laminate;
+    shell.offset = card.real(angle + 1, problems_).value_or(0.0);
+    refuse_given(card, 9, 9 + count, "a thickness of its own (TFLAG, Ti)");
+    shell.place = deck_.place_of(*card.line);
+    add_to_set(std::to_string(*id), shell.nodes);
+    structure_.shells.push_back(std::move(shell));
+  }
+
+  /// THETA, or the x axis of a rectangular system (MCID).
+  bool set_axis(const BulkCard& card, std::size_t field,
+                StructureShell& shell) {
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    if (!is_whole(card.field(field))) {
+      const std::optional<double> angle = card.real(field, problems_);
+      shell.angle = kDegree * angle.value_or(0.0);
+      return angle.has_value();
+    }
+    const std::optional<int> system =
+        card.integer(field, std::nullopt, problems_);
+    if (!system) return false;
+    if (*system == 0) {
+      shell.axis = Vector3::UnitX();
+      return true;
+    }
+    const std::optional<Matrix3> axes = grids_.find_axes(*system, *card.line);
+    if (axes) shell.axis = axes->col(0);
+    return axes.has_value();
+  }
+
+  void add_mass(const BulkCard& card) {
+    if (!take_number(card)) return;
+    const std::optional<int> node = find_node(card, 1);
+    const std::optional<int> system = card.integer(2, 0, problems_);
+    const std::optional<double> mass = card.real(3, problems_);
+    const std::optional<Vector3> offset = find_vector(card, 4);
+    Vector6 I;
+    for (int i = 0; i < 6; ++i)
+      I[i] = card.real(8 + index(i), problems_).value_or(0.0);
+    if (!node || !system || !mass || !offset) return;
+    if (*system != 0 || !(*mass >= 0.0)) {
+      problems_.add(
+          *card.line,
+          fmt::format("CONM2 {}: CID is {} and M {}. Expected axes of "
+                      "the basic system, 0, and M >= 0.",
+                      echo(card.field(0)), *system, *mass));
+      return;
+    }
+    StructureMass body{*node, *mass, *offset, Matrix3::Zero(),
+                       deck_.place_of(*card.line)};
+    body.inertia << I[0], -I[1], -I[3], -I[1], I[2], -I[4], -I[3], -I[4], I[5];
+    structure_.masses.push_back(std::move(body));
+  }
+
+  void add_rigid(const BulkCard& card) {
+    if (!take_number(card)) return;
+    StructureSpider spider;
+    spider.place = deck_.place_of(*card.line);
+    if (card.name == "RBAR") {
+      const bool a_leads = card.field(3) == kAllComponents;
+      const bool b_leads = card.field(4) == kAllComponents;
+      if (a_leads == b_leads || !card.field(a_leads ? 4 : 3).empty())
+        return refuse_components(card, "CNA or CNB");
+      const std::optional<int> a = find_node(card, a_leads ? 1 : 2);
+      const std::optional<int> b = find_node(card, a_leads ? 2 : 1);
+      if (!a || !b) return;
+      spider.reference = *a;
+      spider.nodes = {*b};
+    } else {
+      if (card.field(2) != kAllComponents) return refuse_components(card, "CM");
+      const std::optional<int> leader = find_node(card, 1);
+      if (!leader) return;
+      spider.reference = *leader;
+      for (const int node : read_list(card, 3)) spider.nodes.push_back(node);
+    }
+    structure_.spiders.push_back(std::move(spider));
+  }
+
+  void refuse_components(const BulkCard& card, const char* field) {
+    problems_.add(*card.line,
+                  fmt::format("{} {}: {} is not 123456. Expected a node that "
+                              "leads in all six components.",
+                              card.name, echo(card.field(0)), field));
+  }
+
+  /// Nodes from a field on: numbers, and "3 THRU 7"; a real number ends them.
+  std::vector<int> read_list(const BulkCard& card, std::size_t first) {
+    std::vector<int> nodes;
+    for (std::size_t i = first; i < card.fields.size(); ++i) {
+      if (card.field(i).empty() ||
+          card.field(i).find('.') != std::string_view::npos)
+        continue;
+      if (card.field(i) == "THRU" && i > first) {
+        const auto last = card.integer(i + 1, std::nullopt, problems_);
+        const auto from = card.integer(i - 1, std::nullopt, problems_);
+        if (!last || !from) return nodes;
+        for (auto at = nodes_.upper_bound(*from);
+             at != nodes_.end() && at->first <= *last; ++at)
+          nodes.push_back(at->second);
+        ++i;
+        continue;
+      }
+      if (const std::optional<int> node = find_node(card, i))
+        nodes.push_back(*node);
+    }
+    return nodes;
+  }
+
+  void add_support(const BulkCard& card) {
+    const std::string name = fmt::format("spc:{}", card.field(0));
+    if (card.name == "SPC1" && card.field(1) == kAllComponents)
+      add_to_set(name, read_list(card, 2));
+    if (card.name != "SPC") return;
+    for (const std::size_t i : {std::size_t{1}, std::size_t{4}})
+      if (card.field(i + 1) == kAllComponents)
+        if (const std::optional<int> node = find_node(card, i))
+          add_to_set(name, {*node});
+  }
+
+  void report() {
+    structure_.found.push_back(
+        fmt::format("{}: {} beams, {} shells, {} masses, {} rigid elements",
+                    deck_.files[0].filename().string(), structure_.beams.size(),
+                    structure_.shells.size(), structure_.masses.size(),
+                    structure_.spiders.size()));
+    for (const std::filesystem::path& file : deck_.files)
+      structure_.files.push_back(file);
+    std::vector<std::string> unused;
+    for (const auto& [name, count] : unused_)
+      unused.push_back(fmt::format("{} {}", count, name));
+    if (!unused.empty())
+      structure_.notices.push_back(fmt::format(
+          "{}: not used: {}. Supports and loads are those of the scene; nodes "
+          "that SPC and SPC1 hold in all components are the sets spc:SID.",
+          structure_.source, fmt::join(unused, ", ")));
+    for (const std::string& notice : properties_.notices())
+      structure_.notices.push_back(
+          fmt::format("{}: {}.", structure_.source, notice));
+    if (!deck_.has_end)
+      structure_.notices.push_back(
+          fmt::format("{}: it has no ENDDATA, so whether it is complete is not "
+                      "known.",
+                      structure_.source));
+  }
+
+  Deck deck_;
+  DeckProblems problems_;
+  GridTable grids_;
+  NastranProperties properties_;
+  Structure structure_;
+  std::vector<BulkCard> beams_, shells_, masses_, rigids_, supports_;
+  std::map<int, int> nodes_;  // by number
+  std::unordered_set<int> elements_;
+  std::map<int, int> beam_of_, shell_of_;  // by number of a property
+  std::map<std::string, std::set<int>> sets_;
+  std::map<std::string, int> unused_;
+  std::set<std::string> refused_;
+};
+
+}  // namespace
+
+bool is_nastran_structure(const std::filesystem::path& file) {
+  const Deck deck = read_deck(file);
+  DeckProblems problems(deck);
+  CardReader reader(deck, problems);
+  BulkCard card;
+  bool has_elements = false;
+  bool has_property = false;
+  while (reader.next(card)) {
+    if (is_solid(card.name)) return false;
+    has_elements |= is_bar(card.name) || count_shell_nodes(card.name) > 0;
+    has_property |= is_property(card.name);
+  }
+  return has_elements && has_property;
+}
+
+Structure read_nastran_structure(const std::filesystem::path& file) {
+  return StructureReader(file).read();
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "limber/fem/structural/structure.hpp"
+
+namespace limber::fem {
+
+/// Whether a Nastran deck has beams or shells with properties, and no solids.
+/// @throws InputError as read_deck
+[[nodiscard]] bool is_nastran_structure(const std::filesystem::path& file);
+
+/// Reads CBAR, CBEAM, CQUAD4, CQUADR, CTRIA3, CTRIAR with their properties and
+/// materials, CONM2, RBE2, RBAR, PARAM,WTMASS and points as read_bulk_data.
+/// Sets: nodes of each property by its number, and those that SPC and SPC1 hold
+/// in all six components, as "spc:SID".
+/// @throws InputError with file and line of all that is wrong, and of other
+/// elements, which would be lost
+[[nodiscard]] Structure read_nastran_structure(
+    const std::filesystem::path& file);
+
+}  // namespace limber::fem
