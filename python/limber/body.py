@@ -15,7 +15,8 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
     """Reduces a mesh or geometry to a body that no longer needs the mesh, or the
     stiffness and mass matrix of a finite-element model.
 
-    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh;
+    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh,
+    but not of a deck of beams and shells (.bdf, .inp), which has its materials;
     ``matrices``: a folder, or a list of files, in place of mesh and material, with
     ``mass`` [kg] of the whole model, which its program prints, and ``recovery``: the
     files of a superelement's recovery rows, unless they are in the folder;
@@ -32,12 +33,13 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, density=None,
     if (mesh is None) == (matrices is None):
         raise TypeError("reduce() takes either a mesh or matrices")
     if matrices is None:
+        is_deck = os.fspath(mesh).lower().endswith((".bdf", ".nas", ".dat", ".inp"))
         given = dict(mesh=os.fspath(mesh), matrices=[], mass=0.0 if mass is None else mass)
         for name, value in dict(youngs_modulus=youngs_modulus,
                                 poisson_ratio=poisson_ratio, density=density).items():
-            if value is None:
+            if value is None and not is_deck:
                 raise TypeError(f"reduce() of a mesh needs {name}")
-            given[name] = value
+            given[name] = value or 0.0
     else:
         single = isinstance(matrices, (str, bytes, os.PathLike))
         given = dict(mesh="", matrices=[os.fspath(path) for path in

@@ -18,6 +18,7 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/flexbody/model/full_stress.hpp"
 #include "limber/reduction/contact_surface.hpp"
+#include "limber/reduction/matrices/reduce_matrices.hpp"
 #include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/modal/interfaces.hpp"
 #include "limber/reduction/modal/support.hpp"
@@ -188,10 +189,10 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
                                                const FullOptions& options,
                                                const Progress& progress,
                                                const ReducedBody* reduced) {
-  if (recipe.mesh.is_matrices())
+  if (is_node_model(recipe.mesh))
     throw InputError(fmt::format(
-        "{}: level full computes with a mesh's elements, of which matrices "
-        "have none. Use level coupled",
+        "{}: level full computes with a mesh's solid elements, of which "
+        "matrices, beams and shells have none. Use level coupled",
         recipe.mesh.file.string()));
   fem::Mesh mesh = read_source(recipe.mesh, progress).mesh;
   if (reduced != nullptr) {

@@ -29,6 +29,11 @@ fem::Elasticity find_elasticity(MaterialLaw law) {
 
 std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
                                                  const Recipe& recipe) {
+  if (recipe.materials.empty())
+    throw InputError(fmt::format(
+        "{}: its solids have no material. Give its Young's modulus, Poisson's "
+        "ratio and density.",
+        recipe.mesh.file.string()));
   std::vector<fem::MaterialAssignment> assignments;
   for (const MaterialRegion& region : recipe.materials)
     assignments.push_back(

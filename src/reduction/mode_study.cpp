@@ -89,8 +89,8 @@ ModeStudy study(const MatrixBody& body, const Recipe& recipe,
   ModeStudy result = study_body(body, recipe, modes, progress);
   result.notices = system.notices;
   result.found = system.found;
-  result.mesh_nodes = system.tags.size();
-  result.mesh_boundary_nodes = system.tags.size();
+  result.mesh_nodes = system.node_count();
+  result.mesh_boundary_nodes = system.node_count();
   result.size = system.size();
   result.mass = body.part->inertia.mass;
   result.p_MoBcm_M = body.part->inertia.center;
@@ -103,14 +103,14 @@ ModeStudy study(const MatrixBody& body, const Recipe& recipe,
 template <typename Study>
 ModeStudy study_source(const Recipe& recipe, const Progress& progress,
                        const Study& study) {
-  if (!recipe.mesh.is_matrices()) return study(MeshedBody(recipe, progress));
+  if (!is_node_model(recipe.mesh)) return study(MeshedBody(recipe, progress));
   return study(MatrixBody(recipe, read_matrix_part(recipe.mesh, progress)));
 }
 
 }  // namespace
 
 PartMass find_part_mass(const Recipe& recipe, const Progress& progress) {
-  if (recipe.mesh.is_matrices()) {
+  if (is_node_model(recipe.mesh)) {
     const auto part = read_matrix_part(recipe.mesh, progress);
     return {part->inertia.mass, part->inertia.center, part->system.size(),
             part->system.notices};

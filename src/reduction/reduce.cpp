@@ -201,6 +201,7 @@ std::string find_content(const MatrixPart& part) {
       for (fem::SparseMatrix::InnerIterator it(moment, j); it; ++it)
         digest.add(it.value());
   digest.add(system.has_recovery);
+  digest.add(system.drawn);
   digest.add(system.triangles.size());
   for (const auto& nodes : system.triangles)
     for (const int node : nodes) digest.add(node);
@@ -212,6 +213,7 @@ MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
   MeshAtHand mesh;
   mesh.record = {find_content(*part), part->system.notices, part->system.found,
                  std::move(files), true};
+  mesh.has_stress = false;
   mesh.reduce = [part, progress](const Recipe& recipe) {
     return reduce_matrices(recipe, part, progress);
   };
@@ -229,7 +231,7 @@ MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
 }  // namespace
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
-  if (recipe.mesh.is_matrices())
+  if (is_node_model(recipe.mesh))
     return reduce_matrices(recipe, read_matrix_part(recipe.mesh, progress),
                            progress);
   return reduce(MeshedBody(recipe, progress), recipe, progress);
@@ -244,6 +246,11 @@ ReducedBody reduce(const Recipe& recipe,
 
 Reducer make_reducer(const Progress& progress) {
   const auto make_mesh = [progress](const MeshSource& source) {
+    if (!source.is_matrices() && is_node_model(source)) {
+      std::vector<std::filesystem::path> paths;
+      const auto part = read_matrix_part(source, progress, &paths);
+      return at_hand(part, stamp_files(paths), progress);
+    }
     if (source.is_matrices()) {
       // Before they are read, so that a change meanwhile is noticed.
       std::vector<std::filesystem::path> paths = source.matrices.paths;

@@ -8,9 +8,23 @@
 
 #include "limber/app/options/shared_options.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/flexbody/model/deck_name.hpp"
 
 namespace limber::app {
 namespace {
+
+void check_size(const MeshOptions& options,
+                std::vector<std::string>& problems) {
+  const auto require = [&](bool fine, const std::string& text) {
+    if (!fine) problems.push_back(text);
+  };
+  require(options.size >= 0.0,
+          fmt::format("--size is {}; expected >= 0", options.size));
+  require(options.unit >= 0.0 && std::isfinite(options.unit),
+          fmt::format("--unit is {} m; expected > 0", options.unit));
+  require(options.order >= 0 && options.order <= 3,
+          fmt::format("--order is {}; expected 1, 2 or 3", options.order));
+}
 
 void check(const MeshOptions& options) {
   std::vector<std::string> problems;
@@ -18,6 +32,12 @@ void check(const MeshOptions& options) {
     if (!fine) problems.push_back(text);
   };
   const flexbody::Material& m = options.material;
+  if (flexbody::has_deck_name(options.file) && m.youngs_modulus == 0.0 &&
+      m.poisson_ratio == 0.0 && m.density == 0.0) {
+    check_size(options, problems);
+    if (!problems.empty()) throw InputError(problems);
+    return;
+  }
   require(
       m.youngs_modulus > 0.0,
       fmt::format("--youngs-modulus is {} Pa; expected > 0", m.youngs_modulus));
@@ -28,12 +48,7 @@ void check(const MeshOptions& options) {
                       m.poisson_ratio));
   require(m.density > 0.0,
           fmt::format("--density is {} kg/m^3; expected > 0", m.density));
-  require(options.size >= 0.0,
-          fmt::format("--size is {}; expected >= 0", options.size));
-  require(options.unit >= 0.0 && std::isfinite(options.unit),
-          fmt::format("--unit is {} m; expected > 0", options.unit));
-  require(options.order >= 0 && options.order <= 3,
-          fmt::format("--order is {}; expected 1, 2 or 3", options.order));
+  check_size(options, problems);
   if (!problems.empty()) throw InputError(problems);
 }
 
@@ -65,8 +80,16 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command
-      .add_option("mesh", options.file, "Mesh (.msh) or geometry (.geo, .step)")
-      ->required();
+      .add_option("mesh", options.file,
+                  "Mesh (.msh), geometry (.geo, .step), or deck of beams and "
+                  "shells with its materials (.bdf, .inp)")
+      ->required()
+      ->each([&command](const std::string& file) {
+        if (!flexbody::has_deck_name(file)) return;
+        for (const char* name :
+             {"--youngs-modulus", "--poisson-ratio", "--density"})
+          command.get_option(name)->required(false);
+      });
   command
       .add_option("--youngs-modulus", options.material.youngs_modulus, "E [Pa]")
       ->required();
@@ -139,7 +162,9 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   recipe.mesh.order = options.order;
   recipe.mesh.unit = options.unit;
   recipe.name = recipe.mesh.file.stem().string();
-  recipe.materials = {{"", options.material}};
+  if (!flexbody::has_deck_name(options.file) ||
+      options.material.youngs_modulus != 0.0)
+    recipe.materials = {{"", options.material}};
   return recipe;
 }
 

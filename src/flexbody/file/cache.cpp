@@ -156,10 +156,9 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
 
 // With stress modes, so that a later run that asks for stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
-// Matrices have no elements for stress.
+// Models with unknowns at nodes have none.
 ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
-  recipe.stress |=
-      !recipe.manifold && !recipe.is_estimate && !recipe.mesh.is_matrices();
+  recipe.stress |= !recipe.manifold && !recipe.is_estimate && mesh.has_stress;
   return mesh.reduce(recipe);
 }
 

@@ -230,13 +230,20 @@ MatrixInertia find_matrix_inertia(const MatrixPart& part,
   MatrixInertia found;
   found.integrals = calc_block_integrals(system, part.blocks, part.X, Phi);
   if (is_clamped) return found;
+  const BlockDefects defects = find_defects(part, Phi, found.integrals.S2);
+  const double defect = defects.largest();
+  const auto find_levers_of_nodes = [&] {
+    return calc_inertial_levers(find_scalar_mass(part.blocks),
+                                system.x.colwise() - part.inertia.center,
+                                take_translations(system, Phi), basis.lambda);
+  };
   if (system.has_moments()) {
-    found.levers = find_levers_of_points(part, basis, Phi, fields);
+    found.levers = defect < kMostDefect
+                       ? find_levers_of_nodes()
+                       : find_levers_of_points(part, basis, Phi, fields);
     integrate_moments(part, Phi, found.integrals);
     return found;
   }
-  const BlockDefects defects = find_defects(part, Phi, found.integrals.S2);
-  const double defect = defects.largest();
   double residual = 1.0;
   if (defect >= kSilentDefect && system.has_recovery) {
     const MassPoints points = list_mass_points(part, fields);
@@ -264,9 +271,7 @@ MatrixInertia find_matrix_inertia(const MatrixPart& part,
       std::fill(S->begin(), S->end(), Matrix3::Zero());
     return found;
   }
-  found.levers = calc_inertial_levers(
-      find_scalar_mass(part.blocks), system.x.colwise() - part.inertia.center,
-      take_translations(system, Phi), basis.lambda);
+  found.levers = find_levers_of_nodes();
   if (std::max(defects.motion, defects.shape) >= kSilentDefect)
     found.record.notice = fmt::format(
         "{}: {}; the coupling of large rotation and deformation has an error "

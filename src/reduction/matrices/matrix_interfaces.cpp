@@ -26,7 +26,7 @@ std::vector<int> find_tagged(const MatrixSystem& system, std::size_t tag) {
   throw InputError(
       fmt::format("{}: no node has the number {}; expected one of the {} "
                   "nodes of its table",
-                  system.source, tag, system.tags.size()));
+                  system.source, tag, system.node_count()));
 }
 
 /// The nodes of "node:TAG"; none for any other text.
@@ -48,7 +48,7 @@ std::vector<int> find_near(const MatrixSystem& system, const Distance& distance,
                            double tolerance, const std::string& what) {
   std::vector<int> nodes;
   double nearest = 1e300;
-  for (int n = 0; n < static_cast<int>(system.tags.size()); ++n) {
+  for (int n = 0; n < static_cast<int>(system.node_count()); ++n) {
     if (!system.is_moving[static_cast<std::size_t>(n)]) continue;
     const double d = distance(Vector3(system.x.col(n)));
     nearest = std::min(nearest, d);
@@ -65,7 +65,7 @@ std::vector<int> find_near(const MatrixSystem& system, const Distance& distance,
 int find_nearest(const MatrixSystem& system, const Vector3& point) {
   double least = 1e300;
   int nearest = -1;
-  for (int n = 0; n < static_cast<int>(system.tags.size()); ++n) {
+  for (int n = 0; n < static_cast<int>(system.node_count()); ++n) {
     const double d = (system.x.col(n) - point).norm();
     if (!system.is_moving[static_cast<std::size_t>(n)] || d >= least) continue;
     least = d;

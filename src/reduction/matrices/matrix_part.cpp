@@ -220,7 +220,7 @@ std::shared_ptr<const MatrixPart> make_matrix_part(fem::MatrixModel model,
   part->block_defect =
       calc_block_defect(part->system, part->blocks, part->inertia);
   if (part->block_defect >= kSilentDefect && part->block_defect < kMostDefect &&
-      !part->system.has_recovery)
+      !part->system.has_recovery && !part->system.has_moments())
     part->system.notices.push_back(fmt::format(
         "{}: moments of inertia by the nodes' blocks of the mass matrix differ "
         "by {:.2g} from those of rigid rotation; the coupling of large "

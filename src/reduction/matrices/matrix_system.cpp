@@ -186,6 +186,8 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   system.found = std::move(model.found);
   system.edges = std::move(model.edges);
   system.triangles = std::move(model.triangles);
+  system.drawn = model.drawn;
+  system.notices = std::move(model.notices);
   system.digits = model.stiffness.digits;
   system.M = std::move(model.mass.entries);
   system.K = std::move(model.stiffness.entries);

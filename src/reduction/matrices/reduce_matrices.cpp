@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/reduction/matrices/reduce_matrices.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
 
+#include "limber/common/errors.hpp"
 #include "limber/fem/matrices/read_matrices.hpp"
+#include "limber/fem/structural/assemble_structure.hpp"
+#include "limber/fem/structural/read_structure.hpp"
 #include "limber/reduction/matrices/matrix_body.hpp"
 #include "limber/reduction/matrices/matrix_inertia.hpp"
 #include "limber/reduction/matrices/matrix_interfaces.hpp"
@@ -107,14 +112,45 @@ void add_interfaces(const MatrixBody& meshed, const StaticModes& modes,
   }
 }
 
+/// Beams and shells.
+std::shared_ptr<const MatrixPart> read_structure_part(
+    const MeshSource& source, double unit, const Progress& progress,
+    std::vector<std::filesystem::path>* files) {
+  if (source.size > 0.0 || source.order > 0)
+    throw InputError(
+        fmt::format("{}: a mesh size or order was given, but its beams and "
+                    "shells are elements already. Expected none.",
+                    source.file.string()));
+  report(progress, "reading beams and shells", 0.0);
+  const fem::Structure structure = fem::read_structure(source.file);
+  if (files != nullptr) *files = structure.files;
+  report(progress, "assembling", 0.0);
+  fem::AssembledStructure assembled = fem::assemble_structure(structure);
+  if (!(assembled.mass > 0.0))
+    throw InputError(
+        fmt::format("{}: its elements have no mass. Expected the density of "
+                    "its materials (RHO, *DENSITY).",
+                    source.file.string()));
+  return make_matrix_part(std::move(assembled.model), assembled.mass / unit,
+                          unit, progress);
+}
+
 }  // namespace
 
-std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,
-                                                   const Progress& progress) {
+bool is_node_model(const MeshSource& source) {
+  return source.is_matrices() || fem::is_structure(source.file);
+}
+
+std::shared_ptr<const MatrixPart> read_matrix_part(
+    const MeshSource& source, const Progress& progress,
+    std::vector<std::filesystem::path>* files) {
+  const double unit = source.unit > 0.0 ? source.unit : 1.0;
+  if (!source.is_matrices())
+    return read_structure_part(source, unit, progress, files);
   report(progress, "reading the matrices", 0.0);
   return make_matrix_part(
       fem::read_matrices({source.matrices.paths, source.matrices.recovery}),
-      source.matrices.mass, source.unit > 0.0 ? source.unit : 1.0, progress);
+      source.matrices.mass, unit, progress);
 }
 
 ReducedBody reduce_matrices(const Recipe& recipe,
@@ -147,8 +183,8 @@ ReducedBody reduce_matrices(const Recipe& recipe,
   body.lambda = basis.lambda;
   body.selection = finish_record(chosen, basis);
   body.load_modes = modes.loads;
-  body.mesh_nodes = system.tags.size();
-  body.mesh_boundary_nodes = system.tags.size();
+  body.mesh_nodes = system.node_count();
+  body.mesh_boundary_nodes = system.node_count();
   keep_nodes(meshed, recipe, fields, body);
   add_interfaces(meshed, modes, fields, body);
   report(progress, "reduced", 1.0);

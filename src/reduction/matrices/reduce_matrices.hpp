@@ -10,10 +10,17 @@
 /// Reduction of a model given by matrices. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Reads, and checks as make_matrix_part, what recipe.mesh.matrices names.
+/// Whether a source is a model with unknowns at nodes, given by its matrices or
+/// as a deck of beams and shells.
+[[nodiscard]] bool is_node_model(const MeshSource& source);
+
+/// Reads, and checks as make_matrix_part, what recipe.mesh.matrices names, or
+/// assembles the beams and shells of recipe.mesh.file.
+/// @param files if given, those that were read, of a deck
 /// @throws InputError naming the file and line, the node or the value
 [[nodiscard]] std::shared_ptr<const MatrixPart> read_matrix_part(
-    const MeshSource& source, const Progress& progress = {});
+    const MeshSource& source, const Progress& progress = {},
+    std::vector<std::filesystem::path>* files = nullptr);
 
 /// Modes, static-deformation modes and tables like those of a mesh. The stored
 /// rows are translations of nodes, also of condensed ones.

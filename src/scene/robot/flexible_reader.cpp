@@ -11,6 +11,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/length_unit.hpp"
 #include "limber/common/names.hpp"
+#include "limber/flexbody/model/deck_name.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/place_reader.hpp"
 
@@ -228,7 +229,9 @@ void check_whole(const XmlElement& element, const FlexibleLink& link,
     element.fail(
         "has a <material>, which goes with <mesh>; matrices have their own");
   }
-  if (count("mesh") && link.materials.empty()) {
+  // Decks of beams and shells have their own.
+  if (count("mesh") && link.materials.empty() &&
+      !flexbody::has_deck_name(link.mesh.file)) {
     element.fail(
         "needs a <material youngs_modulus=... poisson_ratio=... "
         "density=.../> for its mesh");
