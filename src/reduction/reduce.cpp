@@ -213,7 +213,6 @@ MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
   MeshAtHand mesh;
   mesh.record = {find_content(*part), part->system.notices, part->system.found,
                  std::move(files), true};
-  mesh.has_stress = false;
   mesh.reduce = [part, progress](const Recipe& recipe) {
     return reduce_matrices(recipe, part, progress);
   };

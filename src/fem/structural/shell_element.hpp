@@ -48,9 +48,10 @@ inline constexpr double kDrilling = 1e-3;
 ///            element based on Mindlin-Reissner plate theory and assumed shear
 ///            strain fields, part I (DKMT), Int. J. Numer. Meth. Eng. 36 (1993)
 ///            1859-1883
+/// Limits     no coupling of stretching and bending, B = 0
 /// @returns 18 x 18
-/// @throws InputError, without its place, for one without area, or `axis` along
-/// the normal
+/// @throws InputError, without its place, for one without area, `axis` along
+/// the normal, or B other than 0
 [[nodiscard]] StructuralElement make_triangle_shell(const ShellShape& shape,
                                                     const Laminate& laminate);
 

@@ -193,6 +193,14 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
     throw InputError(
         "the triangle has no area. Expected three nodes that are not on a "
         "line.");
+  constexpr double kCoupling = 1e-9;
+  const double t_all = laminate.top - laminate.bottom;
+  if (laminate.B.norm() > kCoupling * t_all * laminate.A.norm())
+    throw InputError(
+        "a triangle whose laminate couples stretching and bending "
+        "(unsymmetric, "
+        "or off its nodes by an offset) is not supported. Expected a symmetric "
+        "one at its nodes, or quadrilaterals.");
   const Matrix3 axes = make_surface_axes(across.normalized(), shape.axis);
   Triangle t;
   t.area = 0.5 * across.norm();
@@ -207,20 +215,16 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
   Matrix9 K_membrane = t.area * membrane.transpose() * laminate.A * membrane +
                        make_higher_membrane(t, laminate.A);
   Matrix9 K_plate = Matrix9::Zero();
-  Matrix9 coupling = Matrix9::Zero();
   for (const Vector3& N : kInside) {
     const Strain9 bending = plate.make_curvature(N);
     const Shear9 shear = plate.make_shear(N);
     K_plate += t.area / 3.0 *
                (bending.transpose() * laminate.D * bending +
                 shear.transpose() * laminate.S * shear);
-    coupling += t.area / 3.0 * membrane.transpose() * laminate.B * bending;
   }
   MatrixX K = MatrixX::Zero(18, 18);
   K(kInPlane, kInPlane) = K_membrane;
   K(kOutOfPlane, kOutOfPlane) = K_plate;
-  K(kInPlane, kOutOfPlane) = coupling;
-  K(kOutOfPlane, kInPlane) = coupling.transpose();
 
   MatrixX turn = MatrixX::Zero(18, 18);
   for (int i = 0; i < 6; ++i) turn.block<3, 3>(3 * i, 3 * i) = axes.transpose();

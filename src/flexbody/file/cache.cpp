@@ -156,9 +156,10 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
 
 // With stress modes, so that a later run that asks for stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
-// Models with unknowns at nodes have none.
+// Models with unknowns at nodes, which list what was found, have none.
 ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
-  recipe.stress |= !recipe.manifold && !recipe.is_estimate && mesh.has_stress;
+  recipe.stress |=
+      !recipe.manifold && !recipe.is_estimate && mesh.record.found.empty();
   return mesh.reduce(recipe);
 }
 

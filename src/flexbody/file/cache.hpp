@@ -22,7 +22,6 @@ struct MeshAtHand {
   /// cannot cut.
   std::function<MeshAtHand(const Piece&)> take_piece = {};
   std::function<PieceAdvice()> advise_pieces = {};
-  bool has_stress = true;  ///< whether stress modes can be made
 };
 
 /// Identifies a piece of a mesh. @param mesh MeshRecord::content
