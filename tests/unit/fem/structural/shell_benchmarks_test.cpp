@@ -179,7 +179,7 @@ TEST(ShellBenchmark, FrequenciesOfATaperedMembrane) {
       (VectorX(6) << 44.623, 130.03, 162.70, 246.05, 379.90, 391.44).finished();
   for (const Corners corners : {Corners::four, Corners::three_mixed}) {
     const Grid grid =
-        make_grid(16, 8, make_plate(200e9, 0.3, 0.05, 8000.0), corners,
+        make_grid(32, 16, make_plate(200e9, 0.3, 0.05, 8000.0), corners,
                   [](double u, double v) {
                     return Vector3(10.0 * u, (5.0 - 4.0 * u) * (v - 0.5), 0.0);
                   });
