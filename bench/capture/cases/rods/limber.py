@@ -1,0 +1,15 @@
+"""Limber: flat ends as contact surfaces, all modes below 120 of each rod."""
+
+VARIANTS = ("rigid", "uncoupled", "one-way", "coupled", "full")
+
+
+def measure(limber, level):
+    run = limber.run("scenario.toml", level)
+    contact = run.contacts[0]
+    answers = {
+        "peak_force": contact["peak_force"],
+        "mean_force": contact["impulse"] / contact["duration"],
+        "duration": 1e6 * contact["duration"],
+        "impulse": contact["impulse"],
+    }
+    return answers, ([1e6 * t for t in run.time], run["force.normal_force"])
