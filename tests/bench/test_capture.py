@@ -98,6 +98,19 @@ def test_a_hit_and_a_miss_are_told_apart(tmp_path):
         assert "4 ± 0" in page
 
 
+def test_a_tool_replaces_its_own_results_alone(tmp_path):
+    answer = json.dumps({"status": "answered", "answers": {"sum": 4}, "cpu_s": 0.5})
+    ask(tmp_path, answer)
+    runner = tmp_path / "other"
+    for sum_ in (4, 5):
+        runner.write_text(RUNNER.replace("ANSWER", answer.replace("4", str(sum_))).replace("Abacus", "Slate"))
+        runner.chmod(0o755)
+        done = run("--quick", "--runner", runner, "--work", tmp_path / "work", "--out", tmp_path / "out", tmp_path / "sum")
+        assert done.returncode == 0, done.stderr
+    found = json.loads((tmp_path / "out/results.json").read_text())["sum"]
+    assert [(r["tool"], r["answers"]["sum"]) for r in found] == [("Abacus", 4), ("Slate", 5)]
+
+
 def test_a_failure_is_shown_with_its_reason(tmp_path):
     done, page = ask(tmp_path, json.dumps({"status": "failed", "reason": "beads are stuck"}))
     assert done.returncode == 0

@@ -2,14 +2,16 @@
 """Writes results as a page: every figure beside its reference, misses as misses."""
 INTRODUCTION = """\
 Written by `bench/capture/run`, including all text; do not edit. What the bench asks, its rules and how
-to add a tool: [Capture Bench](../README.md). A cell has the answer and its error; an error beyond the case's
-tolerance, which was set before any tool ran, is a **miss**. Cost is processor time of the whole program
+to add a tool: [Capture Bench](../README.md). A cell has the answer and its error; an error beyond the
+tolerance is a **miss**. Cost is processor time of the whole program
 on one thread of a shared machine, least of the repeats: only ratios within a case mean something, to about a fifth. Set-up
-is what a first run takes beyond that: meshing and reduction."""
+is what a first run takes beyond that: meshing and reduction. A run of more than 20 s is made once; its cost has the
+set-up in it, and the column is empty."""
 
 
 def number(value, digits=4):
-    return f"{value:.{digits}g}"
+    """Rounded to digits that count; without an exponent up to a million."""
+    return f"{float(f'{value:.{digits}g}'):g}" if abs(value) < 1e6 and digits < 6 else f"{value:.{digits}g}"
 
 
 def to_label(result):
@@ -33,7 +35,8 @@ def to_cell(quantity, answers):
     if quantity.reference == 0.0:
         error = f"{off:+.2g}"
     else:
-        error = f"{100 * off / abs(quantity.reference):+.2g} %"
+        percent = 100 * off / abs(quantity.reference)
+        error = f"{percent:+.0f} %" if abs(percent) >= 100 else f"{percent:+.2g} %"
     miss = "" if quantity.judge(value) else " **miss**"
     return f"{number(value, quantity.digits)} ({error}){miss}"
 
@@ -79,12 +82,13 @@ def write_case(case, results, drawn):
 
 
 def find_columns(results):
-    labels = {}
+    """Labels of all variants, tool by tool, in the order in which the runners list them."""
+    places = {}
     for entries in results.values():
-        for result in entries:
-            if result.get("variant"):
-                labels.setdefault(to_label(result))
-    return list(labels)
+        for place, result in enumerate(r for r in entries if r.get("variant")):
+            key = (result["tool"], to_label(result))
+            places[key] = max(places.get(key, 0), place)
+    return [label for _, label in sorted(places, key=lambda key: (key[0], places[key]))]
 
 
 def to_overview(cases, results):

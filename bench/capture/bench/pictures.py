@@ -25,21 +25,21 @@ def thin(points, most=2000):
 
 def draw_case(out, case, results):
     """True if there is something to draw."""
-    curves = []
+    curves, few = [], False
     for result in results:
         if result.get("curve"):
             points = thin(list(zip(result["curve"]["x"], result["curve"]["y"])))
-            style = "with linespoints" if len(points) < 40 else "with lines"
+            ours = result["tool"] == "Limber"
+            few = few or len(points) < 40
+            style = f"points pt {7 if ours else 5} ps 1.2" if few else f"lines lw 2 dt {1 if ours else 2}"
             colour = COLOURS[len(curves) % len(COLOURS)]
-            dashes = "" if result["tool"] == "Limber" else " dt 2"
             name = f"{result['tool']}, {result['variant']}"
-            curves.append((name, f"{style} lw 2 lc rgb '{colour}'{dashes}", points))
+            curves.append((name, f"with {style} lc rgb '{colour}'", points))
     if case.curve is None or not curves:
         return False
     if case.curve.points:
-        # Far more would hide the curves.
-        style = "with points pt 6 ps 1 lc rgb 'black'"
-        if len(case.curve.points) < 8:
+        style = "with points pt 6 ps 1.5 lc rgb 'black'"
+        if len(case.curve.points) < 8 and not few:  # a polygon, as of rods
             style = "with lines dt 3 lw 2 lc rgb 'black'"
         curves.append(("reference", style, thin(list(case.curve.points), 60)))
     labels = (case.curve.x, case.curve.y)
@@ -63,8 +63,8 @@ def draw_cost(out, cases, results):
         (label, f"with points pt {5 + 2 * (i % 5)} ps 1.5 lc rgb '{COLOURS[i % len(COLOURS)]}'", found)
         for i, (label, found) in enumerate(points.items())
     ]
-    curves.append(("tolerance", "with lines lc rgb 'black' dt 2", [(1, 1), (1e4, 1)]))
-    settings = "set logscale xy\nset key outside right\nset format y '10^{%T}'\nset termoption enhanced"
+    curves.append(("tolerance", "with lines lc rgb 'black' dt 2", [(0.8, 1), (1e4, 1)]))
+    settings = "set logscale xy\nset key outside right\nset xrange [0.8:*]\nset format y '10^{%T}'\nset termoption enhanced"
     labels = ("processor time over the cheapest run of the case", "worst error over tolerance")
     plot(out / "cost.png", "Error and cost of every run", labels, curves, settings)
 

@@ -6,7 +6,7 @@ def scene(body, timestep, gravity="0 0 0", integrator="Euler", sensors="", more=
     """A whole file."""
     return f"""<mujoco>
 <compiler angle="radian" inertiafromgeom="false" coordinate="local" balanceinertia="false"/>
-<size njmax="2000" nconmax="400"/>
+<size njmax="200" nconmax="40"/>
 <option timestep="{timestep:.12g}" gravity="{gravity}" integrator="{integrator}" cone="elliptic" \
 impratio="10" tolerance="1e-14" iterations="200" {options}><flag energy="enable"/></option>
 {more}

@@ -23,11 +23,11 @@ class Unavailable(Exception):
     """A tool that is not installed."""
 
 
-def call(command):
-    """What a program printed, and its processor time [s], of all that it started too."""
+def call(command, folder=None):
+    """What a program printed in a working folder, and its processor time [s], of all that it started too."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
-        [str(c) for c in command], capture_output=True, text=True, check=False
+        [str(c) for c in command], capture_output=True, text=True, check=False, cwd=folder
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
