@@ -5,7 +5,7 @@
 def scene(body, timestep, gravity="0 0 0", integrator="Euler", sensors="", more="", options=""):
     """A whole file."""
     return f"""<mujoco>
-<compiler angle="radian" inertiafromgeom="false" coordinate="local" balanceinertia="false"/>
+<compiler angle="radian" inertiafromgeom="false" coordinate="local" balanceinertia="false" eulerseq="XYZ"/>
 <size njmax="200" nconmax="40"/>
 <option timestep="{timestep:.12g}" gravity="{gravity}" integrator="{integrator}" cone="elliptic" \
 impratio="10" tolerance="1e-14" iterations="200" {options}><flag energy="enable"/></option>

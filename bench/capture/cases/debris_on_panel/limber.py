@@ -1,10 +1,11 @@
-"""Limber: the scene of bench/impact."""
+"""Limber: the scene of bench/impact. Level nonlinear is left out: the plate bends by a hundredth of its
+thickness, and the pairs of 320 modes are 51 000 vectors."""
 
-VARIANTS = ("rigid", "uncoupled", "one-way", "coupled", "full")
+VARIANTS = ("rigid", "uncoupled", "coupled", "full")
 
 
 def measure(limber, level):
-    run = limber.run("../../../impact/scenes/plate.toml", level, **{"basis.eigenmodes": 320})
+    run = limber.run("../../../impact/scenes/plate.toml", level, **{"basis.eigenmodes": 20 if level == "rigid" else 320})
     contact = run.contacts[0]
     answers = {
         "peak_force": contact["peak_force"],

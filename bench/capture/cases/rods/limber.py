@@ -1,4 +1,4 @@
-"""Limber: flat ends as contact surfaces, all modes below 120 of each rod."""
+"""Limber: flat ends as contact surfaces, 120 modes a rod. Level nonlinear is left out: nothing bends."""
 
 VARIANTS = ("rigid", "uncoupled", "one-way", "coupled", "full")
 

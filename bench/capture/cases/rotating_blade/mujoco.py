@@ -1,11 +1,6 @@
 """MuJoCo: the rod as rigid segments on a heavy hub; its frequencies from 60 s of small ringing."""
-import pathlib
-import sys
-
 import mjcf
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "references"))
-import ringing  # noqa: E402
+import ringing
 
 VARIANTS = {"segments": 10, "twice the segments": 20}  # segments
 EI, MU, UNIT = 1.4e4, 1.2, 1.0801234

@@ -5,7 +5,7 @@ import math
 import mjcf
 
 VARIANTS = ("rigid",)
-STEP = 1e-4  # at 10 us it lands 8 % early
+STEP = 1e-4  # at 10 us its edge hops more, not less
 
 
 def measure(mujoco, _):
@@ -21,11 +21,12 @@ def measure(mujoco, _):
     sensors = '<frameangvel objtype="xbody" objname="box" name="w"/><framezaxis objtype="xbody" objname="box" name="z"/>'
     run = mujoco.run(mjcf.scene(body, STEP, "0 0 -9.81", sensors=sensors, more=key), 0.7)
     rates = run["w:1"]
-    fastest = max(range(len(rates)), key=lambda i: abs(rates[i]))
+    half = 0.5 * max(map(abs, rates))
+    last = max(i for i, rate in enumerate(rates) if abs(rate) > half)
     end = math.atan2(run["z:0"][-1], run["z:2"][-1])
     answers = {
-        "landing_time": run.time[fastest],
-        "landing_rate": -rates[fastest],
+        "landing_time": run.time[last],
+        "landing_rate": -rates[last - 1],  # the step before landing
         "rotation": turned - end,
     }
     return answers, (run.time[::10], rates[::10])
