@@ -36,7 +36,7 @@ def to_cell(quantity, answers):
         error = f"{off:+.2g}"
     else:
         percent = 100 * off / abs(quantity.reference)
-        error = f"{percent:+.0f} %" if abs(percent) >= 100 else f"{percent:+.2g} %"
+        error = f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
     miss = "" if quantity.judge(value) else " **miss**"
     return f"{number(value, quantity.digits)} ({error}){miss}"
 

@@ -2,9 +2,10 @@
 """Pictures of results by gnuplot: a case's curves, and error over cost of all."""
 import subprocess
 
-COLOURS = ("#999999", "#56b4e9", "#e69f00", "#d55e00", "#009e73", "#cc79a7", "#0072b2", "#f0e442")
+COLOURS = ("#999999", "#56b4e9", "#e69f00", "#d55e00", "#009e73", "#cc79a7", "#0072b2", "#f0e442", "#8b4513")
 SETTINGS = """\
-set terminal pngcairo noenhanced size 900,480 font 'sans,11'
+set terminal pngcairo noenhanced size 1000,480 font 'sans,11'
+set key outside right
 set grid lc rgb '#dddddd'
 """
 
@@ -64,7 +65,7 @@ def draw_cost(out, cases, results):
         for i, (label, found) in enumerate(points.items())
     ]
     curves.append(("tolerance", "with lines lc rgb 'black' dt 2", [(0.8, 1), (1e4, 1)]))
-    settings = "set logscale xy\nset key outside right\nset xrange [0.8:*]\nset format y '10^{%T}'\nset termoption enhanced"
+    settings = "set logscale xy\nset xrange [0.8:*]\nset format y '10^{%T}'\nset termoption enhanced"
     labels = ("processor time over the cheapest run of the case", "worst error over tolerance")
     plot(out / "cost.png", "Error and cost of every run", labels, curves, settings)
 
