@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the command accepts the examples of docs/reference/scenario.md and urdf.md:
+"""Checks that the command accepts the examples of docs/reference/scenario.md, controllers.md and urdf.md:
 alone, or in place of the same tables and elements of the scene that a tutorial builds.
 
   check_fragments.py LIMBER SOURCE_FOLDER WORK_FOLDER
@@ -18,7 +18,7 @@ limber, source, work = (pathlib.Path(text).resolve() for text in sys.argv[1:4])
 sys.path.insert(0, str(source / "tests/support"))
 from page_blocks import read_blocks  # noqa: E402
 
-SCENARIO_PAGE = source / "docs/reference/scenario.md"
+SCENARIO_PAGES = (source / "docs/reference/scenario.md", source / "docs/reference/controllers.md")
 ROBOT_PAGE = source / "docs/reference/urdf.md"
 TUTORIAL = source / "docs/tutorials/catch.md"
 SCENARIO, ROBOT = "catch.toml", "gripper.urdf"
@@ -70,21 +70,21 @@ def check(file, place):
             if text.startswith("problem")]
 
 
-def check_scenario(block, scenario):
+def check_scenario(page, block, scenario):
     fragment = tomllib.loads(block.text)
     if block.values["fragment"] != "alone":
         fragment = merge(scenario, fragment)
-    file = work / f"line_{block.line}.toml"
+    file = work / f"{page.stem}_{block.line}.toml"
     file.write_text("".join(f"{key} = {to_toml(value)}\n" for key, value in fragment.items()))
-    return check(file, f"{SCENARIO_PAGE.relative_to(source)}:{block.line}")
+    return check(file, f"{page.relative_to(source)}:{block.line}")
 
 
-def check_robot(block, robot):
+def check_robot(page, block, robot):
     name = f"line_{block.line}"
     (work / f"{name}.urdf").write_text(merge_robot(robot, block.text))
     file = work / f"{name}_robot.toml"
     file.write_text(f'robot = "{name}.urdf"\n[time]\nduration = 0.01\nstep = 1e-3\n')
-    return check(file, f"{ROBOT_PAGE.relative_to(source)}:{block.line}")
+    return check(file, f"{page.relative_to(source)}:{block.line}")
 
 
 def main():
@@ -96,12 +96,12 @@ def main():
     scenario = tomllib.loads((work / SCENARIO).read_text())
     robot = (work / ROBOT).read_text()
     problems, count = [], 0
-    for page, function, scene in ((SCENARIO_PAGE, check_scenario, scenario),
+    for page, function, scene in (*((page, check_scenario, scenario) for page in SCENARIO_PAGES),
                                   (ROBOT_PAGE, check_robot, robot)):
         for block in read_blocks(page):
             if "fragment" in block.values:
                 count += 1
-                problems += function(block, scene)
+                problems += function(page, block, scene)
     if count < 20:
         problems.append("the examples were not found")
     if problems:
