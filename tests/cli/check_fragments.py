@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the command accepts the examples of docs/reference/scenario.md, controllers.md and urdf.md:
-alone, or in place of the same tables and elements of the scene that a tutorial builds.
+"""Checks that the command accepts the examples of docs/reference/scenario.md, controllers.md, urdf.md and others:
+alone, or in place of the same tables and elements of the scene that a tutorial builds. Their commands run in that
+scene, and what README.md shows of it is there.
 
   check_fragments.py LIMBER SOURCE_FOLDER WORK_FOLDER
 """
@@ -18,7 +19,8 @@ limber, source, work = (pathlib.Path(text).resolve() for text in sys.argv[1:4])
 sys.path.insert(0, str(source / "tests/support"))
 from page_blocks import read_blocks  # noqa: E402
 
-SCENARIO_PAGES = (source / "docs/reference/scenario.md", source / "docs/reference/controllers.md")
+SCENARIO_PAGES = tuple(source / f"docs/{name}.md" for name in (
+    "reference/scenario", "reference/controllers", "how-to/choose_level"))
 ROBOT_PAGE = source / "docs/reference/urdf.md"
 TUTORIAL = source / "docs/tutorials/catch.md"
 SCENARIO, ROBOT = "catch.toml", "gripper.urdf"
@@ -87,6 +89,28 @@ def check_robot(page, block, robot):
     return check(file, f"{page.relative_to(source)}:{block.line}")
 
 
+def run_commands(page):
+    """Those of a page of the scenario's reference, in the tutorial's scene."""
+    for block in read_blocks(page):
+        if block.language == "sh":
+            (work / "limber").unlink(missing_ok=True)
+            (work / "limber").symlink_to(limber)
+            result = subprocess.run(["bash", "-euc", block.text], cwd=work, capture_output=True, text=True, env={
+                **os.environ, "LIMBER_CACHE": str(work / "cache"), "PATH": f"{work}:{os.environ['PATH']}"})
+            if result.returncode != 0:
+                yield f"{page.relative_to(source)}:{block.line}: status {result.returncode}: {result.stderr}"
+
+
+def check_readme(scenario):
+    """Each line of its part of the scenario is one of the tutorial's, but for comments."""
+    def split(text):
+        return [line.partition("#")[0].rstrip() for line in text.splitlines()]
+    lines = [line for block in read_blocks(source / "README.md") if block.language == "toml"
+             for line in split(block.text)]
+    return [f"README.md: not in {TUTORIAL.relative_to(source)}: {line}"
+            for line in lines or ["a block of toml"] if line not in split(scenario)]
+
+
 def main():
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
@@ -102,6 +126,7 @@ def main():
             if "fragment" in block.values:
                 count += 1
                 problems += function(page, block, scene)
+    problems += [*run_commands(SCENARIO_PAGES[0]), *check_readme((work / SCENARIO).read_text())]
     if count < 20:
         problems.append("the examples were not found")
     if problems:

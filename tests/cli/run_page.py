@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the files of a page in docs/ and runs its commands and Python scripts, one
 block after the other; fails at the first that fails. The page finds the folders
-examples, models and meshes of the sources. Each line of a block `text shows=yes` is
-among those that the last one printed: words alike, numbers within 2 %, or two units of
-the last digit of a fraction, and anything after an ending "...".
+examples, models and meshes of the sources, and a block `with=NAME:FOLDER` a folder of the
+sources under a name. A Python block `goes_on=yes` continues those before it; a block
+`runs=no` is left out. Each line of a block `text shows=yes` is among those that the last
+one printed: words alike, numbers within 2 %, or two units of the last digit of a fraction,
+and anything after an ending "...".
 
   run_page.py LIMBER SOURCE_FOLDER PAGE WORK_FOLDER [PYTHON_FOLDER]
 
@@ -33,8 +35,14 @@ environment = {"LIMBER_CACHE": str(work / "cache"), **os.environ,
 if len(sys.argv) > 5:
     environment["PYTHONPATH"] = sys.argv[5]
 programs = {"sh": ["bash", "-euc"], "python": ["/usr/bin/python3", "-c"]}
-commands, output = 0, ""
+commands, output, before = 0, "", ""
 for block in read_blocks(page):
+    if "with" in block.values:
+        name, folder = block.values["with"].split(":")
+        (work / name).symlink_to(source / folder)
+    if "runs" in block.values:
+        print(f"{page.name}:{block.line}: skipped: what it needs is not everywhere")
+        continue
     if "file" in block.values:
         (work / block.values["file"]).write_text(block.text)
     elif block.language in programs:
@@ -42,8 +50,11 @@ for block in read_blocks(page):
             print(f"{page.name}:{block.line}: skipped: needs the Python module")
             continue
         commands += 1
+        script = block.text
+        if block.language == "python":
+            script = before = (before if "goes_on" in block.values else "") + block.text
         print(f"{page.name}:{block.line}: {block.text}", flush=True)
-        result = subprocess.run([*programs[block.language], block.text], cwd=work,
+        result = subprocess.run([*programs[block.language], script], cwd=work,
                                 env=environment, capture_output=True, text=True)
         print(result.stdout, result.stderr, sep="", flush=True)
         output = result.stdout + result.stderr

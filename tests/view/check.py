@@ -92,7 +92,9 @@ def check_script(folder, points):
         script = page.read().split("```python\n")[1].split("```")[0]
     with h5py.File(f"{folder}/results.h5") as results:
         names = [n for n, body in results["scene/bodies"].items() if "surface" in body]
-    script = script.replace("list(f[\"scene/bodies\"])[0]", "given")
+    chosen = 'next(name for name, body in f["scene/bodies"].items() if "surface" in body)'
+    assert chosen in script and '"out/struck_finger/results.h5"' in script
+    script = script.replace(chosen, "given").replace("out/struck_finger/", "")
     for given in names:
         for wanted in (p for p in points if p["body"] == given):
             scope = {"given": given}

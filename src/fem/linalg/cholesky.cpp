@@ -90,8 +90,9 @@ void SparseCholesky::factor(const SparseMatrix& lower) {
   impl_->common.check(impl_->what);
   if (impl_->factor->minor < impl_->factor->n)
     throw NumericalError(fmt::format(
-        "{} is not positive definite in double precision (pivot {} of {}).{}",
-        impl_->what, impl_->factor->minor, impl_->factor->n, impl_->causes));
+        "{} is not positive definite in double precision (pivot {} of {}){}{}",
+        impl_->what, impl_->factor->minor, impl_->factor->n,
+        impl_->causes.empty() ? "" : ".", impl_->causes));
 }
 
 SparseCholesky::~SparseCholesky() = default;
