@@ -14,6 +14,7 @@ from website import stage
 
 THEME = pathlib.Path(__file__).parent / "theme"
 SHOWN = re.compile(r"\.\w+\.html(#|$)")  # pages of files that are no pages
+GALLERY = "docs/gallery.md"
 FEATURES = ["navigation.tabs", "navigation.indexes", "navigation.top", "search.highlight"]
 PALETTE = [
     {"media": "(prefers-color-scheme: light)", "scheme": "default", "primary": "blue grey",
@@ -49,8 +50,8 @@ def make_navigation(source, pages, made):
     return [title(pages, entry) for entry in [
         {"Start": ["README.md", "docs/index.md", "CHANGELOG.md", "SUPPORT.md", "SECURITY.md",
                    "CONTRIBUTING.md"]},
-        {"Tutorials": list_links(source, "Tutorials")},
-        {"Gallery": ["docs/gallery.md"]},
+        {"Tutorials": [page for page in list_links(source, "Tutorials") if page != GALLERY]},
+        {"Gallery": [GALLERY]},
         {"How to": list_links(source, "How to")},
         {"Reference": [*reference, stage.LITERATURE,
                        *({name: pages} for name, pages in made.items())]},

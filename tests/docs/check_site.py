@@ -6,7 +6,9 @@ of docs/ is there, the search finds words, and also does so in a browser that re
 
   check_site.py SOURCE_FOLDER BUILD_FOLDER WORK_FOLDER
 """
+import functools
 import html.parser
+import http.server
 import json
 import pathlib
 import re
@@ -14,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import urllib.parse
 
 SKIPPED = 77
@@ -90,19 +93,39 @@ def check_search(site):
             if word not in texts.get(page, "")]
 
 
+class Host(http.server.SimpleHTTPRequestHandler):
+    """Serves the site in a folder of its own, and keeps the paths that it could serve."""
+    served = []
+
+    def log_request(self, code="-", size="-"):
+        if int(code) == 200:
+            self.served.append(self.path)
+
+
+def open_page(address):
+    """The page as the browser shows it (workers go on beside it)."""
+    with tempfile.TemporaryDirectory() as profile:
+        return subprocess.run(
+            ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
+             "--virtual-time-budget=20000", "--dump-dom", address], capture_output=True, text=True).stdout
+
+
 def check_in_browser(site):
-    """The search, of a page from disk."""
+    """The search of a page from disk, and what it loads from a folder of a host, where it is a worker."""
     if shutil.which("chromium") is None:
         print("the browser was left out: there is no chromium")
         return []
-    with tempfile.TemporaryDirectory() as profile:
-        shown = subprocess.run(
-            ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-             "--virtual-time-budget=20000", "--dump-dom", f"{(site / 'docs/index.html').as_uri()}?q=restitution"],
-            capture_output=True, text=True).stdout
-    if re.search(r"\d+ matching documents", shown):
-        return []
-    return ["chromium: the search from disk finds nothing"]
+    page, problems = "docs/index.html?q=restitution", []
+    if not re.search(r"\d+ matching documents", open_page(f"{site.as_uri()}/{page}")):
+        problems.append("chromium: the search from disk finds nothing")
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Host, directory=site.parent))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    open_page(f"http://127.0.0.1:{server.server_port}/{site.name}/{page}")
+    server.shutdown()
+    for part in ("search/search_index.json", "javascripts/workers/search"):
+        if not any(part in path for path in Host.served):
+            problems.append(f"chromium: a page of a host does not load {part}")
+    return problems
 
 
 def main():
