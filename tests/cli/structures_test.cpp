@@ -51,6 +51,69 @@ TEST_F(Structures, HaveMassesAndRigidArms) {
   EXPECT_NEAR(json::parse(result.out)["mass"].get<double>(), tube + 5.0, 1e-9);
 }
 
+/// A tube of 2 m under 1 N at its end, small: F L^3 / (3 E I) + F L / (k G A)
+/// with Cowper's k of a hollow circle, and of the end's rotation 0.2 F L^2 / (2
+/// E I) at the end of the rigid arm.
+TEST_F(Structures, BendAsTimoshenkosCantilever) {
+  place_.write("arm.urdf",
+               "<robot name='arm'><link name='boom'/><flexible link='boom'>"
+               "<mesh file='" +
+                   kFolder +
+                   "boom.bdf'/><clamp group='spc:1'/><basis eigenmodes='2'/>"
+                   "<interface name='end' node='3'/>"
+                   "<interface name='tool' node='4'/></flexible></robot>\n");
+  place_.write("s.toml",
+               "robot = 'arm.urdf'\n[time]\nduration = 1.0\nstep = 0.01\n"
+               "[[load]]\nname = 'pull'\nlink = 'boom'\ninterface = 'end'\n"
+               "force = [0, 1, 0]\nframe = 'world'\n"
+               "[[probe]]\nname = 'end'\nlink = 'boom'\ninterface = 'end'\n"
+               "quantity = 'deformation'\n"
+               "[[probe]]\nname = 'tool'\nlink = 'boom'\ninterface = "
+               "'tool'\nquantity = 'deformation'\n");
+  const CommandResult result = place_.limber("static s.toml --out o --cache c");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json probes =
+      json::parse(read_text(place_.folder() / "o/summary.json")).at("probes");
+  const double E = 7e10;
+  const double nu = 0.33;
+  const double m2 = 0.81;  // square of the ratio of radii
+  const double A = M_PI * 0.05 * 0.05 * (1.0 - m2);
+  const double I = M_PI / 4.0 * std::pow(0.05, 4) * (1.0 - m2 * m2);
+  const double k =
+      6.0 * (1.0 + nu) * (1.0 + m2) * (1.0 + m2) /
+      ((7.0 + 6.0 * nu) * (1.0 + m2) * (1.0 + m2) + (20.0 + 12.0 * nu) * m2);
+  const double kGA = k * E / (2.0 * (1.0 + nu)) * A;
+  const double end = 8.0 / (3.0 * E * I) + 2.0 / kGA;
+  EXPECT_NEAR(probes.at("end.dy").at("value").get<double>(), end, 1e-7 * end);
+  const double tool = end + 0.2 * 4.0 / (2.0 * E * I);
+  EXPECT_NEAR(probes.at("tool.dy").at("value").get<double>(), tool,
+              1e-7 * tool);
+}
+
+/// Of a plate that is struck and spins by 5 rad/s about an oblique axis.
+TEST_F(Structures, KeepTheirEnergyInASpin) {
+  place_.write("plate.urdf",
+               "<robot name='plate'><link name='plate'/><flexible "
+               "link='plate'><mesh file='" +
+                   kFolder +
+                   "plate16.inp'/><basis eigenmodes='6'/>"
+                   "<interface name='tip' node='17'/></flexible></robot>\n");
+  place_.write(
+      "s.toml",
+      "robot = 'plate.urdf'\n[time]\nduration = 0.2\nstep = 0.0005\n"
+      "integrator = 'energy-conserving'\n[output]\npictures = false\n"
+      "[initial.base]\nangular_velocity = [3, 2, 3.4641]\n"
+      "[[load]]\nname = 'blow'\nlink = 'plate'\ninterface = 'tip'\n"
+      "force = [0, 0, 20]\ntime = { kind = 'pulse', shape = 'half-sine', "
+      "start = 0.0, duration = 0.01 }\n");
+  const CommandResult result = place_.limber("run s.toml --out o --cache c");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json energy =
+      json::parse(read_text(place_.folder() / "o/summary.json")).at("energy");
+  EXPECT_GT(std::abs(energy.at("work").get<double>()), 0.1);  // J
+  EXPECT_LT(std::abs(energy.at("relative_drift").get<double>()), 1e-9);
+}
+
 TEST_F(Structures, TellWhatWouldBeLost) {
   place_.write("bad.bdf",
                "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nMAT1,1,7.E+10,,.33,2700.\n"

@@ -156,10 +156,11 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
 
 // With stress modes, so that a later run that asks for stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
-// Models with unknowns at nodes, which list what was found, have none.
+// Matrices, and decks of beams and shells, which bring their materials, have
+// none.
 ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
-  recipe.stress |=
-      !recipe.manifold && !recipe.is_estimate && mesh.record.found.empty();
+  recipe.stress |= !recipe.manifold && !recipe.is_estimate &&
+                   !recipe.mesh.is_matrices() && !recipe.materials.empty();
   return mesh.reduce(recipe);
 }
 
