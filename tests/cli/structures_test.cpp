@@ -125,5 +125,14 @@ TEST_F(Structures, TellWhatWouldBeLost) {
   EXPECT_THAT(result.errors, HasSubstr("bad.bdf:7: RBE3 is not read"));
 }
 
+TEST_F(Structures, ListKeywordsThatAreNotUsed) {
+  std::string deck = read_text(kFolder + "frame20.inp");
+  deck.insert(deck.find("*DENSITY"), "*PLASTIC\n1e9, 0.\n*$TEP\n");
+  place_.write("frame.inp", deck);
+  const CommandResult result = place_.limber("modes frame.inp --count 1");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.errors, HasSubstr("not used: 1 *$TEP, 1 *PLASTIC"));
+}
+
 }  // namespace
 }  // namespace limber::test::structures_test

@@ -39,7 +39,7 @@ StructuralElement make_at(const std::string& place,
 
 Vector3 find_axis(const StructureShell& shell, const Matrix3X& x) {
   const Vector3 side = x.col(1) - x.col(0);
-  const Vector3 axis = shell.axis.isZero(0.0) ? side : shell.axis;
+  Vector3 axis = shell.axis.isZero(0.0) ? side : shell.axis;
   if (shell.angle == 0.0) return axis;
   const Vector3 n = side.cross(Vector3(x.col(x.cols() - 1) - x.col(0)));
   return exp_rotation(shell.angle * n.normalized()) *

@@ -75,7 +75,7 @@ class StructureDrawer {
   int add_node(int node, const Vector3& d) {
     const auto drawn = static_cast<int>(model_.tags.size());
     model_.tags.push_back(next_tag_++);
-    points_.push_back(structure_.x.col(node) + d);
+    points_.emplace_back(structure_.x.col(node) + d);
     const NodeMotion& motion = motions_[index(node)];
     for (int c = 0; c < 3; ++c) add_row(drawn, c, motion, motion.arm + d);
     return drawn;

@@ -13,39 +13,12 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/fem/abaqus/solid_type.hpp"
+#include "limber/fem/structural/abaqus_keywords.hpp"
 #include "limber/fem/structural/abaqus_sections.hpp"
 #include "limber/fem/text/deck_sets.hpp"
 
 namespace limber::fem {
 namespace {
-
-/// They constrain, make or move nodes, and are not read.
-constexpr std::array<std::string_view, 23> kLost = {"EQUATION",
-                                                    "MPC",
-                                                    "TIE",
-                                                    "COUPLING",
-                                                    "KINEMATIC",
-                                                    "DISTRIBUTING",
-                                                    "KINEMATIC COUPLING",
-                                                    "DISTRIBUTING COUPLING",
-                                                    "SHELL TO SOLID COUPLING",
-                                                    "CYCLIC SYMMETRY MODEL",
-                                                    "CONTACT PAIR",
-                                                    "SYSTEM",
-                                                    "NGEN",
-                                                    "NFILL",
-                                                    "NCOPY",
-                                                    "NMAP",
-                                                    "ELGEN",
-                                                    "ELCOPY",
-                                                    "BEAM GENERAL SECTION",
-                                                    "SHELL GENERAL SECTION",
-                                                    "ROTARY INERTIA",
-                                                    "NODAL THICKNESS",
-                                                    "SUBSTRUCTURE PROPERTY"};
-
-constexpr std::array<std::string_view, 5> kOutside = {
-    "BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"};
 
 enum class LineKind { none, node, element, nset, elset, mass, section };
 
@@ -113,13 +86,12 @@ class StructureDeckReader {
       at.fail("the element before it is not complete. Expected more nodes.");
     keyword_ = keyword;
     const std::string& name = keyword.name;
-    if (std::ranges::find(kLost, name) != kLost.end())
+    if (loses_motion(name))
       at.fail(
           fmt::format("*{} is not read among beams and shells and would be "
                       "lost. Expected *NODE, *ELEMENT, sections, *MASS and "
                       "*RIGID BODY.",
                       name));
-    if (std::ranges::find(kOutside, name) != kOutside.end()) ++unused_[name];
     if (name == "INSTANCE" && ++instances_ > 1)
       at.fail("a second *INSTANCE. Expected one part of one instance.");
     for (const char* key : {"NSET", "ELSET"})
@@ -149,6 +121,8 @@ class StructureDeckReader {
       kind_ = LineKind::mass;
     } else if (name == "RIGID BODY") {
       add_rigid(at);
+    } else if (!is_of_analysis(name)) {
+      ++unused_[name];
     }
     return kind_ == LineKind::node || kind_ == LineKind::element ||
            kind_ == LineKind::nset || kind_ == LineKind::elset ||
