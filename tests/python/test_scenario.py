@@ -267,6 +267,16 @@ def test_a_body_is_reduced_saved_and_read(tmp_path):
         limber.reduce(mesh, youngs_modulus=1.0, poisson_ratio=0.3, density=-1.0)
 
 
+def test_a_deck_of_shells_has_its_material_and_the_frequencies_of_calculix():
+    deck = SOURCE / "tests/data/structures/plate16.inp"
+    body = limber.reduce(deck, modes=3)
+    assert body.mass == pytest.approx(7800.0 * 0.02 * 1.0 * 0.7)
+    # CalculiX 2.20 with S4, twice the elements (tests/cli/structures_test.cpp).
+    assert body.frequencies == pytest.approx([95.14645, 106.7729, 221.4544], rel=0.015)
+    with pytest.raises(limber.InputError, match="have their own"):
+        limber.reduce(deck, youngs_modulus=1e9, poisson_ratio=0.3, density=1e3)
+
+
 def test_peaks_and_envelopes_are_those_of_all_steps(sled, tmp_path):
     run = limber.load(sled).run()
     run.save(tmp_path / "o")
