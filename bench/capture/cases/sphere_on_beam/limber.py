@@ -1,14 +1,10 @@
 """Limber: the scene of bench/impact."""
 
+import ball_strike
+
 VARIANTS = ("rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full")
 
 
 def measure(limber, level):
     run = limber.run("../../../impact/scenes/bar.toml", level, **{"basis.eigenmodes": 40})
-    contact = run.contacts[0]
-    answers = {
-        "peak_force": contact["peak_force"],
-        "duration": 1e6 * contact["duration"],
-        "impulse": contact["impulse"],
-    }
-    return answers, ([1e6 * t for t in run.time], run["impact.normal_force"])
+    return ball_strike.read_impact(run)
