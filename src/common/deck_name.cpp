@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/flexbody/model/deck_name.hpp"
+#include "limber/common/deck_name.hpp"
 
 #include "limber/common/upper_case.hpp"
 
-namespace limber::flexbody {
+namespace limber {
 
 bool has_deck_name(const std::filesystem::path& file) {
   const std::string extension = to_upper(file.extension().string());
@@ -11,4 +11,4 @@ bool has_deck_name(const std::filesystem::path& file) {
          extension == ".INP";
 }
 
-}  // namespace limber::flexbody
+}  // namespace limber

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-namespace limber::flexbody {
+namespace limber {
 
 /// Whether a file is, by its extension, a deck of Nastran, Abaqus or CalculiX,
 /// which may have its materials.
 [[nodiscard]] bool has_deck_name(const std::filesystem::path& file);
 
-}  // namespace limber::flexbody
+}  // namespace limber

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "limber/app/options/shared_options.hpp"
+#include "limber/common/deck_name.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/flexbody/model/deck_name.hpp"
 
 namespace limber::app {
 namespace {
@@ -32,7 +32,7 @@ void check(const MeshOptions& options) {
     if (!fine) problems.push_back(text);
   };
   const flexbody::Material& m = options.material;
-  if (flexbody::has_deck_name(options.file) && m.youngs_modulus == 0.0 &&
+  if (has_deck_name(options.file) && m.youngs_modulus == 0.0 &&
       m.poisson_ratio == 0.0 && m.density == 0.0) {
     check_size(options, problems);
     if (!problems.empty()) throw InputError(problems);
@@ -85,7 +85,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
                   "shells with its materials (.bdf, .inp)")
       ->required()
       ->each([&command](const std::string& file) {
-        if (!flexbody::has_deck_name(file)) return;
+        if (!has_deck_name(file)) return;
         for (const char* name :
              {"--youngs-modulus", "--poisson-ratio", "--density"})
           command.get_option(name)->required(false);
@@ -162,8 +162,7 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   recipe.mesh.order = options.order;
   recipe.mesh.unit = options.unit;
   recipe.name = recipe.mesh.file.stem().string();
-  if (!flexbody::has_deck_name(options.file) ||
-      options.material.youngs_modulus != 0.0)
+  if (!has_deck_name(options.file) || options.material.youngs_modulus != 0.0)
     recipe.materials = {{"", options.material}};
   return recipe;
 }

@@ -19,6 +19,7 @@ constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Of what contacts do to a body, relative to its radius of gyration: resting
 // boxes do not come closer.
 constexpr double kContactRoundoff = 1e-14;
+
 }  // namespace
 
 void measure_correction(const SystemModel& model, const MotionGroups& groups,

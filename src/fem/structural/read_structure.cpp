@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/structural/read_structure.hpp"
 
-#include "limber/common/upper_case.hpp"
+#include "limber/common/deck_name.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
 #include "limber/fem/structural/read_abaqus_structure.hpp"
 #include "limber/fem/structural/read_nastran_structure.hpp"
 
 namespace limber::fem {
-namespace {
-
-bool is_deck_name(const std::filesystem::path& file) {
-  const std::string extension = to_upper(file.extension().string());
-  return extension == ".BDF" || extension == ".NAS" || extension == ".DAT" ||
-         extension == ".INP";
-}
-
-}  // namespace
 
 bool is_structure(const std::filesystem::path& file) {
-  if (!is_deck_name(file)) return false;
+  if (!has_deck_name(file)) return false;
   switch (find_mesh_file_kind(file)) {
     case MeshFileKind::bulk_data:
       return is_nastran_structure(file);

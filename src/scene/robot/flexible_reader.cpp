@@ -7,11 +7,11 @@
 #include <iterator>
 #include <sstream>
 
+#include "limber/common/deck_name.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/length_unit.hpp"
 #include "limber/common/names.hpp"
-#include "limber/flexbody/model/deck_name.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/place_reader.hpp"
 
@@ -231,7 +231,7 @@ void check_whole(const XmlElement& element, const FlexibleLink& link,
   }
   // Decks of beams and shells have their own.
   if (count("mesh") && link.materials.empty() &&
-      !flexbody::has_deck_name(link.mesh.file)) {
+      !has_deck_name(link.mesh.file)) {
     element.fail(
         "needs a <material youngs_modulus=... poisson_ratio=... "
         "density=.../> for its mesh");
