@@ -9,6 +9,13 @@ namespace {
 // Below this squared angle the series to the second term is exact in double.
 constexpr double kSmallAngleSquared = 1e-8;
 
+// sum + factor theta theta'; skew(theta)^2 is theta theta' - theta^2 I.
+Matrix3 add_square(Matrix3 sum, double factor, const Vector3& theta) {
+  const Vector3 scaled = factor * theta;
+  for (int j = 0; j < 3; ++j) sum.col(j) += theta[j] * scaled;
+  return sum;
+}
+
 }  // namespace
 
 Matrix3 skew(const Vector3& a) {
@@ -64,8 +71,8 @@ Matrix3 left_jacobian(const Vector3& theta) {
     a = 2.0 * half * half / angle2;
     b = (angle - std::sin(angle)) / (angle2 * angle);
   }
-  const Matrix3 s = skew(theta);
-  return Matrix3::Identity() + a * s + b * s * s;
+  return add_square((1.0 - b * angle2) * Matrix3::Identity() + a * skew(theta),
+                    b, theta);
 }
 
 Matrix3 left_jacobian_derivative(const Vector3& theta,
@@ -114,8 +121,8 @@ Matrix3 right_jacobian_inverse(const Vector3& theta) {
     c = 1.0 / angle2 -
         std::cos(0.5 * angle) / (2.0 * angle * std::sin(0.5 * angle));
   }
-  const Matrix3 s = skew(theta);
-  return Matrix3::Identity() + 0.5 * s + c * s * s;
+  return add_square(
+      (1.0 - c * angle2) * Matrix3::Identity() + 0.5 * skew(theta), c, theta);
 }
 
 }  // namespace limber

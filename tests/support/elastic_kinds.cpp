@@ -104,12 +104,12 @@ std::shared_ptr<const dynamics::ModalInertia> bend_inertia(
     const dynamics::ModalInertia& inertia, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-0.3, 0.3);
   auto bent = std::make_shared<dynamics::ModalInertia>(inertia);
-  for (Eigen::Index k = 1; k < inertia.J2.cols(); ++k) {
-    for (Eigen::Index l = k; l < inertia.J2.cols(); ++l) {
+  for (int k = 1; k < inertia.modes; ++k) {
+    for (int l = k; l < inertia.modes; ++l) {
       for (int c = 0; c < 6; ++c) {
         const double more = uniform(random);
-        bent->J2(6 * k + c, l) += more;
-        if (l != k) bent->J2(6 * l + c, k) += more;
+        bent->columns(inertia.row(c, k), l + 1) += more;
+        if (l != k) bent->columns(inertia.row(c, l), k + 1) += more;
       }
     }
   }

@@ -2,6 +2,7 @@
 #include "limber/app/console/help_text.hpp"
 
 #include "limber/app/build_options.hpp"
+#include "limber/dynamics/kernels/processor.hpp"
 #include "limber/version.hpp"
 
 namespace limber::app {
@@ -17,7 +18,11 @@ std::string describe_build() {
          "  (meshes and reductions: Gmsh, CHOLMOD)\n"
          "LIMBER_REFERENCE     " LIMBER_BUILD_REFERENCE
          "  (limber verify: Simbody)\n"
-         "LIMBER_SANITIZE      " LIMBER_BUILD_SANITIZE;
+         "LIMBER_SANITIZE      " LIMBER_BUILD_SANITIZE
+         "\n"
+         "LIMBER_SIMD          " +
+         std::string(dynamics::kernels::describe(
+             dynamics::kernels::find_instructions()));
 }
 
 std::string describe_citation() {
@@ -39,6 +44,10 @@ std::string describe_surroundings() {
          "                  --cache is given; without it limber in "
          "XDG_CACHE_HOME, else\n"
          "                  .cache/limber in HOME (see limber cache)\n"
+         "  LIMBER_SIMD     instructions of a step's inner loops: baseline or "
+         "avx2\n"
+         "                  (default: what the processor has); results have the "
+         "same bits\n"
          "  NO_COLOR        if not empty, messages have no colours\n"
          "  OPENBLAS_NUM_THREADS\n"
          "                  threads of linear algebra in reductions\n"

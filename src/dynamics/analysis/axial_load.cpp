@@ -38,7 +38,7 @@ double find_held_eigenvalue(const BodyModel& body, const VectorX& lambda,
 VectorX find_stretch(const BodyModel& body, const Vector3& axis) {
   VectorX stretch(body.modes);
   for (int k = 0; k < body.modes; ++k) {
-    const Matrix3 J1 = unpack_symmetric(body.inertia->J1.col(k));
+    const Matrix3 J1 = unpack_symmetric(Vector6(body.inertia->J1().row(k)));
     stretch[k] = 0.5 * (0.5 * J1.trace() - axis.dot(J1 * axis));
   }
   return stretch;

@@ -39,8 +39,7 @@ double shift_pair(double lambda_k, double lambda_l, double b) {
 /// Largest Coriolis coupling of two modes, Omega . beta_kl [rad/s].
 double bound_coriolis(const BodyModel& body, const BodyPeaks& peaks, int k,
                       int l) {
-  return peaks.Omega_B.dot(
-      Vector3(body.inertia->beta.block<3, 1>(3 * l, k)).cwiseAbs());
+  return peaks.Omega_B.dot(Vector3(body.inertia->beta(k).row(l)).cwiseAbs());
 }
 
 /// Effect of rotation on the modes' oscillation in `time` [s]: excitation of
@@ -79,7 +78,7 @@ VectorX bound_forces(const BodyModel& body, const BodyPeaks& peaks) {
   VectorX forces = VectorX::Zero(body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
-      const Vector6 J2 = body.inertia->J2.block<6, 1>(6 * k, l).cwiseAbs();
+      const Vector6 J2 = body.inertia->J2(k).row(l).cwiseAbs();
       forces[k] += 2.0 * bound_coriolis(body, peaks, k, l) * rates[l] +
                    w_squared.dot(J2) * peaks.modes[l];
     }

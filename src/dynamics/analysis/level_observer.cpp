@@ -237,7 +237,7 @@ void LevelObserver::include_deformation(const SystemState& state,
   VectorX& inertial = observed.eta_inertial;  // remains zero for a clamped body
   VectorX& eta = observed.eta;
   if (!body.clamped) {
-    inertial.noalias() = body.inertia->J1.transpose() *
+    inertial.noalias() = body.inertia->J1() *
                          half_square(state.bodies[index(observed.body)].w_WB_B);
     inertial.array() *= observed.flexibility.array();
     observed.inertial.include(inertial, state.t);
@@ -275,7 +275,7 @@ void LevelObserver::include_deformation(const SystemState& state,
 void LevelObserver::include_slip(const BodyModel& body, const VectorX& eta,
                                  const SystemState& state, Observed& observed) {
   const Vector3 slip = observed.compliance *
-                       unpack_symmetric(body.inertia->J1 * eta) *
+                       unpack_symmetric(body.inertia->J1().transpose() * eta) *
                        state.bodies[index(observed.body)].w_WB_B;
   if (observed.has_begun) {
     observed.slipped +=

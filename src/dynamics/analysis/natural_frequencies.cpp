@@ -84,8 +84,7 @@ Orbit make_orbit(const SystemModel& model, const SystemState& state,
     for (Index k = 0; k < body.modes; ++k) {
       all(m + k, m + k) = 1.0;
       for (Index l = 0; l < body.modes; ++l) {
-        around(m + k, m + l) =
-            e_B.dot(body.inertia->beta.block<3, 1>(3 * l, k));
+        around(m + k, m + l) = e_B.dot(body.inertia->beta(k).row(l));
       }
     }
   }

@@ -19,12 +19,10 @@ void add_reduced_wrench(const BodyModel& body, const Attachment& attachment,
   terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
   if (body.modes == 0) return;
   const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
-  const Matrix3X& Phi_B = translation_of(attachment, motion);
-  const Matrix3X& Psi_B = rotation_of(attachment, motion);
-  for (int k = 0; k < body.modes; ++k) {
-    terms.modal_force[k] +=
-        Phi_B.col(k).dot(force_B) + Psi_B.col(k).dot(twist_B);
-  }
+  kernels::add_interface_force(columns_of(translation_of(attachment, motion),
+                                          rotation_of(attachment, motion)),
+                               force_B.data(), twist_B.data(),
+                               terms.modal_force.data());
   if (!attachment.second) return;
   motion.wrench_B.head<3>() += force_B;
   motion.wrench_B.tail<3>() += twist_B;

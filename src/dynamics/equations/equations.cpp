@@ -6,6 +6,8 @@
 #include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
+#include "limber/dynamics/kernels/inertia_kernel.hpp"
+#include "limber/dynamics/kernels/padding.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
@@ -38,34 +40,22 @@ void set_oscillator_bias(const BodyModel& body, const SystemState& state,
 // vanishes: int phi x x dm = 0 in the mean-axis frame.)
 void add_centrifugal_bias(const BodyModel& body, const Vector3& w,
                           BodyTerms& terms) {
-  terms.bias_e.noalias() -= body.inertia->J1.transpose() * half_square(w);
+  terms.bias_e.noalias() -= body.inertia->J1() * half_square(w);
 }
 
-// Level coupled: all terms. One product with J2 and two with beta, O(m^2).
+// Level coupled: all terms, O(m^2).
 void set_coupled_terms(const BodyModel& body, const SystemState& state,
                        const Vector3& w, BodyTerms& terms) {
-  const int m = body.modes;
-  const ConstModes eta = modes_of(body, state.eta);
-  const ConstModes etadot = modes_of(body, state.etadot);
-  terms.scratch_J2.noalias() = body.inertia->J2 * eta;
-  terms.scratch_b1.noalias() = body.inertia->beta * eta;
-  terms.scratch_b2.noalias() = body.inertia->beta * etadot;
-
   const Vector6 w_squared = half_square(w);
-  Vector6 J = Vector6::Zero();
-  Vector6 Jdot = Vector6::Zero();
-  Vector3 h = Vector3::Zero();  // H etadot
-  for (int k = 0; k < m; ++k) {
-    const Vector6 curvature = terms.scratch_J2.segment<6>(6 * k);
-    const Vector6 dJ = body.inertia->J1.col(k) + curvature;
-    J += (body.inertia->J1.col(k) + 0.5 * curvature) * eta[k];
-    Jdot += dJ * etadot[k];
-    const Vector3 H = terms.scratch_b1.segment<3>(3 * k);
-    terms.H.col(k) = H;
-    h += H * etadot[k];
-    terms.bias_e[k] +=
-        2.0 * w.dot(terms.scratch_b2.segment<3>(3 * k)) - w_squared.dot(dJ);
-  }
+  const kernels::InertiaSums sums = kernels::calc_inertia(
+      {body.inertia->columns.data(), static_cast<std::size_t>(body.modes)},
+      state.eta.data() + body.offset, state.etadot.data() + body.offset,
+      w.data(), w_squared.data(), terms.by_mode.data(), terms.bias_e.data());
+  terms.H.noalias() =
+      terms.by_mode.middleCols<3>(6).topRows(body.modes).transpose();
+  const Vector6 J = Eigen::Map<const Vector6>(sums.J.data());
+  const Vector6 Jdot = Eigen::Map<const Vector6>(sums.Jdot.data());
+  const Vector3 h = Eigen::Map<const Vector3>(sums.h.data());  // H etadot
   terms.J = body.J0 + unpack_symmetric(J);
   terms.bias_r = unpack_symmetric(Jdot) * w + w.cross(terms.J * w + h);
 }
@@ -261,9 +251,9 @@ SystemTerms make_terms(const SystemModel& model) {
     if (has_dense_modes(body)) {
       t.stiffness = MatrixX::Zero(m, m);
     }
-    t.scratch_J2 = VectorX::Zero(coupled ? 6 * m : 0);
-    t.scratch_b1 = VectorX::Zero(coupled ? 3 * m : 0);
-    t.scratch_b2 = VectorX::Zero(coupled ? 3 * m : 0);
+    const auto padded =
+        static_cast<Eigen::Index>(kernels::pad(static_cast<std::size_t>(m)));
+    t.by_mode.setZero(coupled ? padded : 0, 12);
     terms.bodies.push_back(std::move(t));
     terms.products.push_back(
         make_product_terms(model, BodyIndex(terms.products.size())));

@@ -47,15 +47,21 @@ void calc_attachment_motion(const SystemModel& model,
   if (body.modes > 0) {
     const double* eta = state.eta.data() + body.offset;
     const double* etadot = state.etadot.data() + body.offset;
+    Vector3 psidot = Vector3::Zero();
     if (attachment.second) {
       motion.arm_B += calc_second_order(attachment, eta, motion);
+      udot_B = combine(motion.Phi_B, etadot);
+      psidot = combine(motion.Psi_B, etadot);
     } else {
-      motion.arm_B += combine(attachment.Phi_B, eta);
-      motion.psi = combine(attachment.Psi_B, eta);
+      const kernels::InterfaceMotion moved = kernels::calc_interface_motion(
+          columns_of(attachment.Phi_B, attachment.Psi_B), eta, etadot);
+      motion.arm_B += Eigen::Map<const Vector3>(moved.u.data());
+      motion.psi = Eigen::Map<const Vector3>(moved.psi.data());
+      udot_B = Eigen::Map<const Vector3>(moved.udot.data());
+      psidot = Eigen::Map<const Vector3>(moved.psidot.data());
     }
-    udot_B = combine(translation_of(attachment, motion), etadot);
     motion.J_psi = left_jacobian(motion.psi);
-    w_B += motion.J_psi * combine(rotation_of(attachment, motion), etadot);
+    w_B += motion.J_psi * psidot;
     motion.R_WF = R_WB * (exp_rotation(motion.psi) * attachment.R_BF);
   } else {
     motion.J_psi.setIdentity();

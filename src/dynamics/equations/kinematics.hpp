@@ -2,6 +2,7 @@
 #pragma once
 
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/kernels/column_kernels.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -48,6 +49,12 @@ struct AttachmentMotion {
 [[nodiscard]] inline const Matrix3X& rotation_of(
     const Attachment& attachment, const AttachmentMotion& motion) {
   return attachment.second ? motion.Psi_B : attachment.Psi_B;
+}
+
+/// Two 3 x m tables for the kernels.
+[[nodiscard]] inline kernels::InterfaceColumns columns_of(
+    const Matrix3X& Phi_B, const Matrix3X& Psi_B) {
+  return {Phi_B.data(), Psi_B.data(), static_cast<std::size_t>(Phi_B.cols())};
 }
 
 /// Fills `motion`; `R_WB` is the body's rotation matrix (not read for world).

@@ -36,9 +36,16 @@ struct BodyTerms {
   /// Of Maxwell elements over the step, relative to the elastic one; set by
   /// integrators, else 0 [-].
   double maxwell_stiffness = 0.0;
-  VectorX scratch_J2;  ///< 6m: J2 eta [kg^1/2 m]
-  VectorX scratch_b1;  ///< 3m: beta eta [kg^1/2 m]
-  VectorX scratch_b2;  ///< 3m: beta etadot [kg^1/2 m/s]
+  /// Of level coupled, p = m rounded up to four; other levels have none:
+  /// p x 12, columns: six of dJ/deta [kg^1/2 m], three of H, three of beta
+  /// etadot [kg^1/2 m/s].
+  Eigen::Matrix<double, Eigen::Dynamic, 12> by_mode;
+  [[nodiscard]] Vector6 dJ(int mode) const {
+    return by_mode.row(mode).head<6>().transpose();
+  }
+  [[nodiscard]] Vector3 beta_rate(int mode) const {
+    return by_mode.row(mode).tail<3>().transpose();
+  }
 };
 
 /// An unreduced body at a state, home frame.

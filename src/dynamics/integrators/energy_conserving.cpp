@@ -196,15 +196,14 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   for (int k = 0; k < body.modes; ++k) {
     const Eigen::Index i = body.offset + k;
     double change = next_.etadot[i] - from.etadot[i];
-    double inertial = is_spun ? ww.dot(body.inertia->J1.col(k)) : 0.0;
+    double inertial =
+        is_spun && !is_coupled ? ww.dot(body.inertia->J1().row(k)) : 0.0;
     if (is_coupled) {
       pi0 += first.H.col(k) * from.etadot[i];
       pi1 += last.H.col(k) * next_.etadot[i];
       change += last.H.col(k).dot(w1) - first.H.col(k).dot(w0);
-      inertial += 0.5 * (ww.dot(first.scratch_J2.segment<6>(6 * k) +
-                                last.scratch_J2.segment<6>(6 * k)) -
-                         w0.dot(last.scratch_b2.segment<3>(3 * k)) -
-                         w1.dot(first.scratch_b2.segment<3>(3 * k)));
+      inertial = 0.5 * (ww.dot(first.dJ(k) + last.dJ(k)) -
+                        w0.dot(last.beta_rate(k)) - w1.dot(first.beta_rate(k)));
     }
     residual_[row + 6 + k] =
         2.0 * (change / h - inertial + elastic_[i] +

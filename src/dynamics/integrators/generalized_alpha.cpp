@@ -61,6 +61,7 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       plan_(progress_.groups().size()),
       course_(progress_.groups().size()),
       kept_wrenches_(VectorX::Zero(count_wrench_rows(terms_))),
+      last_wrenches_(kept_wrenches_),
       gaps_(model.couplers.size() + model.transmissions.size(),
             Vector6::Zero()) {
   if (settings.estimates_error) scale_.emplace(model);
@@ -255,6 +256,18 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   return turns;
 }
 
+// Wrenches change as over the last step, as the predicted accelerations do:
+// after an event they start from those of the last state.
+void GeneralizedAlpha::extrapolate_wrenches(double h) {
+  get_applied(terms_, kept_wrenches_);
+  const double ratio = trend_step_ > 0.0 ? h / trend_step_ : 0.0;
+  if (ratio > 0.0 && ratio <= kMostStretch) {
+    last_wrenches_ = kept_wrenches_ + ratio * (kept_wrenches_ - last_wrenches_);
+    set_applied(last_wrenches_, terms_);
+  }
+  last_wrenches_ = kept_wrenches_;
+}
+
 // Restores the wrenches at the last state as the initial guess.
 void GeneralizedAlpha::restore_wrenches() {
   set_applied(kept_wrenches_, terms_);
@@ -388,7 +401,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   StepResult result;
   const bool keeps = plan_.keeps() && factored_step_ > 0.0 &&
                      std::abs(h - factored_step_) <= 1e-9 * h;
-  get_applied(terms_, kept_wrenches_);
+  extrapolate_wrenches(h);
   converge_somehow(state, h, end, keeps, result);
   plan_.finish_step(keeps, course_);
   work_.advance(state, next_, terms_, h, result);

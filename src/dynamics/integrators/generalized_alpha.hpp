@@ -79,6 +79,7 @@ class GeneralizedAlpha final : public Integrator {
   void apply_increments(double h, double taken);
   void add_quasi_static_accelerations();
   bool predict(const SystemState& from, double h, double end);
+  void extrapolate_wrenches(double h);
   void restore_wrenches();
   void add_wrench_noise();
   void correct(bool exactly);
@@ -122,6 +123,7 @@ class GeneralizedAlpha final : public Integrator {
   FactorPlan plan_;
   FactorPlan::Course course_;  // of the last step
   VectorX kept_wrenches_;      // of the last state
+  VectorX last_wrenches_;      // of the state before, if trend_step_ > 0
   std::vector<Vector6> gaps_;
 };
 

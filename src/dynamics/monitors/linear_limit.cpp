@@ -64,7 +64,7 @@ VectorX find_shares(const BodyModel& body, const Vector6& half_w_squared) {
   MatrixX B(body.modes, body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
-      B(k, l) = half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
+      B(k, l) = half_w_squared.dot(body.inertia->J2(k).row(l));
     }
   }
   return find_shares(body.elasticity, B);

@@ -8,11 +8,19 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/kernels/column_kernels.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/newton/free_rows.hpp"
 #include "limber/dynamics/newton/link_rows.hpp"
 
 namespace limber::dynamics {
+namespace {
+
+std::size_t columns_of(const Matrix6X& matrix) {
+  return static_cast<std::size_t>(matrix.cols());
+}
+
+}  // namespace
 
 NewtonMatrix::NewtonMatrix(const SystemModel& model)
     : ends_of_body_(model.bodies.size()),
@@ -148,10 +156,9 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
       for (const int j : ends) {
         const End& row = ends_[index(i)];
         const End& column = ends_[index(j)];
-        Matrix6& block = plan_.lu.block(row.link, column.link);
-        for (Eigen::Index k = 0; k < row.G.cols(); ++k) {
-          block.noalias() += row.G.col(k) * column.Zt.col(k).transpose();
-        }
+        kernels::add_outer_products(
+            row.G.data(), column.Zt.data(), columns_of(row.G),
+            plan_.lu.block(row.link, column.link).data());
       }
     }
   }
@@ -311,13 +318,12 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   for (Vector6& x : unknowns_) x.setZero();
   for (const End& end : ends_) {
     if (is_retained(end)) continue;
-    const double* x = increments.data() + end.row;
-    Vector6& w = unknowns_[index(end.link)];
-    for (Eigen::Index k = 0; k < end.G.cols(); ++k) w -= end.G.col(k) * x[k];
+    kernels::add_product(end.G.data(), increments.data() + end.row,
+                         columns_of(end.G), unknowns_[index(end.link)].data());
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const Vector6 right =
-        scaled_stiffness_[i] * unknowns_[i] + rows_[i] * gaps[i];
+        rows_[i] * gaps[i] - scaled_stiffness_[i] * unknowns_[i];
     unknowns_[i] = right;
   }
   const auto for_kept = [&](const auto& visit) {
@@ -336,11 +342,9 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   std::copy_n(unknowns_.begin(), wrenches_.size(), wrenches_.begin());
   for (const End& end : ends_) {
     if (is_retained(end)) continue;
-    double* x = increments.data() + end.row;
-    const Vector6& w = wrenches_[index(end.link)];
-    for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {
-      x[k] += end.Zt.col(k).dot(w);
-    }
+    kernels::add_transposed_product(
+        end.Zt.data(), wrenches_[index(end.link)].data(), columns_of(end.Zt),
+        increments.data() + end.row);
   }
 }
 

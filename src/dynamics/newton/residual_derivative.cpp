@@ -74,15 +74,17 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   const Vector6 d_w_squared = change_half_square(w, d_w);
   auto r_modes = r.segment(body.row + 6, body.modes);
   if (is_one_way(body)) {
-    r_modes -= body.inertia->J1.transpose() * d_w_squared;
+    r_modes -= body.inertia->J1() * d_w_squared;
   }
   if (!is_coupled(body.fidelity)) return;
 
   const Eigen::Map<const VectorX> d_eta(d.eta, body.modes);
   const double* etadot = state_->etadot.data() + body.offset;
   const double* etaddot = acceleration_->data() + body.row + 6;
-  const VectorX d_J2 = body.inertia->J2 * d_eta;
-  const VectorX d_beta = body.inertia->beta * d_eta;
+  const ModalInertia& inertia = *body.inertia;
+  const VectorX products = inertia.columns.rightCols(body.modes) * d_eta;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 9>> changes(
+      products.data(), products.size() / 9, 9);
   const Vector6 w_squared = half_square(w);
   Vector6 Jdot = Vector6::Zero();
   Vector6 d_J = Vector6::Zero();
@@ -91,10 +93,9 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   Vector3 d_h = Vector3::Zero();
   Vector3 d_H_etaddot = Vector3::Zero();
   for (int k = 0; k < body.modes; ++k) {
-    const Vector6 J_k =
-        body.inertia->J1.col(k) + t.scratch_J2.segment<6>(6 * k);
-    const Vector6 d_J_k = d_J2.segment<6>(6 * k);
-    const Vector3 d_H = d_beta.segment<3>(3 * k);
+    const Vector6 J_k = t.dJ(k);
+    const Vector6 d_J_k = changes.row(k).head<6>();
+    const Vector3 d_H = changes.row(k).tail<3>();
     const double d_etadot = c_.velocity * d_eta[k];
     Jdot += J_k * etadot[k];
     d_J += J_k * d_eta[k];
@@ -102,8 +103,7 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
     h += t.H.col(k) * etadot[k];
     d_h += d_H * etadot[k] + t.H.col(k) * d_etadot;
     d_H_etaddot += d_H * etaddot[k];
-    r_modes[k] += d_H.dot(wdot) +
-                  2.0 * d_w.dot(t.scratch_b2.segment<3>(3 * k)) +
+    r_modes[k] += d_H.dot(wdot) + 2.0 * d_w.dot(t.beta_rate(k)) +
                   2.0 * c_.velocity * w.dot(d_H) - d_w_squared.dot(J_k) -
                   w_squared.dot(d_J_k);
   }

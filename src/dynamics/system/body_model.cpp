@@ -5,6 +5,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/kernels/padding.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -35,17 +36,23 @@ ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s) {
   const auto m = static_cast<int>(s.S1.size());
   LIMBER_EXPECT(s.S2.size() == s.S1.size() * s.S1.size());
 
-  ModalInertia packed{Matrix6X(6, m), MatrixX(6 * m, m), MatrixX(3 * m, m)};
+  const auto padded = static_cast<Eigen::Index>(kernels::pad(s.S1.size()));
+  ModalInertia packed{m, MatrixX::Zero(9 * padded, m + 1)};
+  const auto set = [&](int first, int mode, int column, const auto& values) {
+    for (int c = 0; c < values.size(); ++c) {
+      packed.columns(packed.row(first + c, mode), column) = values[c];
+    }
+  };
   std::size_t pair = 0;
   for (int k = 0; k < m; ++k) {
-    packed.J1.col(k) =
-        pack_symmetric(inertia_of(s.S1[static_cast<std::size_t>(k)]));
+    set(0, k, 0, pack_symmetric(inertia_of(s.S1[static_cast<std::size_t>(k)])));
     for (int l = 0; l < m; ++l) {
       const Matrix3& S2 = s.S2[pair++];
-      packed.J2.block<6, 1>(6 * k, l) = pack_symmetric(inertia_of(S2));
+      set(0, l, k + 1, pack_symmetric(inertia_of(S2)));
       // (phi_k x phi_l)_c = eps_cab S2_ab.
-      packed.beta.block<3, 1>(3 * l, k) = Vector3(
-          S2(1, 2) - S2(2, 1), S2(2, 0) - S2(0, 2), S2(0, 1) - S2(1, 0));
+      set(6, l, k + 1,
+          Vector3(S2(1, 2) - S2(2, 1), S2(2, 0) - S2(0, 2),
+                  S2(0, 1) - S2(1, 0)));
     }
   }
   return packed;

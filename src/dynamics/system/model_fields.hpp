@@ -63,7 +63,7 @@ constexpr auto fields_of(const ControllerModel*) {
 }
 
 constexpr auto fields_of(const ModalInertia*) {
-  return list_fields("inertia by mode", "J1", "J2", "beta");
+  return list_fields("inertia by mode", "modes", "columns");
 }
 
 constexpr auto fields_of(const BodyModel*) {

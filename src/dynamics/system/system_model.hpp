@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
+#include "limber/dynamics/kernels/modal_inertia.hpp"
 #include "limber/dynamics/system/controller.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/dynamics/system/indices.hpp"
@@ -22,18 +23,6 @@
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::dynamics {
-
-/// Derivatives of a body's inertia by its modes, and the coupling of modes by
-/// rotation, packed for the inner loops. Shared by all bodies of the system
-/// with the same reduced body, which saves cache.
-///
-/// Equation   J(eta) = J0 + J1 eta + eta' J2 eta / 2,
-///            components (xx, yy, zz, xy, xz, yz)
-struct ModalInertia {
-  Matrix6X J1;   ///< 6 x m [kg^1/2 m]
-  MatrixX J2;    ///< 6m x m, row 6k + c [-]
-  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k [-]
-};
 
 /// One body's constants. m modes, 0 when rigid.
 struct BodyModel {
