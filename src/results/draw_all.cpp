@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <iterator>
 #include <system_error>
 #include <thread>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kMostFailures = 3;
 constexpr std::size_t kMostAtATime = 4;
+constexpr std::size_t kMostTogether = 16;  // charts of one process
 
 // Results of all pictures, drawn by threads that take one after the other.
 class Drawing {
@@ -56,6 +58,20 @@ class Drawing {
 };
 
 }  // namespace
+
+void add_charts(std::vector<GnuplotScript> charts,
+                std::vector<Picture>& pictures) {
+  for (std::size_t first = 0; first < charts.size(); first += kMostTogether) {
+    const std::size_t last = std::min(first + kMostTogether, charts.size());
+    const auto from = [&](std::size_t i) {
+      return std::make_move_iterator(charts.begin() +
+                                     static_cast<std::ptrdiff_t>(i));
+    };
+    std::vector<GnuplotScript> some(from(first), from(last));
+    pictures.emplace_back(
+        [some = std::move(some)] { return run_together(some); });
+  }
+}
 
 std::vector<std::string> draw_all(const std::vector<Picture>& pictures) {
   Drawing drawing(pictures);

@@ -2,7 +2,9 @@
 #include "limber/results/gnuplot.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -76,6 +78,31 @@ std::string GnuplotScript::run() const {
   std::filesystem::remove(file_, ignored);
   return fmt::format("no picture '{}': gnuplot could not draw or write it",
                      file_.filename().string());
+}
+
+std::string run_together(const std::vector<GnuplotScript>& scripts) {
+  std::string all;
+  std::error_code ignored;
+  for (const GnuplotScript& script : scripts) {
+    std::filesystem::remove(script.file(), ignored);
+    // The file is written when the next output is set.
+    all += script.text() + "set output\nreset session\n";
+  }
+  GnuplotEnd end = GnuplotEnd::done;
+  if (scripts.size() > 1) end = run_script(all);
+  std::vector<std::string> reasons;
+  for (const GnuplotScript& script : scripts) {
+    if (end != GnuplotEnd::failed &&
+        std::filesystem::exists(script.file(), ignored)) {
+      continue;
+    }
+    const std::string why = script.run();
+    if (why.empty() || std::ranges::find(reasons, why) != reasons.end()) {
+      continue;
+    }
+    reasons.push_back(why);
+  }
+  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 }  // namespace limber::results

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace limber::results {
 
@@ -20,10 +21,19 @@ class GnuplotScript {
   /// @returns an empty string, or why there is no picture.
   [[nodiscard]] std::string run() const;
 
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
  private:
   std::filesystem::path file_;
   std::string text_;
 };
+
+/// Runs all in one process, which saves most of the time of a small picture;
+/// those that fail there once more, each alone.
+/// @returns an empty string, or why pictures are missing, each reason once
+[[nodiscard]] std::string run_together(
+    const std::vector<GnuplotScript>& scripts);
 
 /// `text` as a gnuplot string literal, escaped.
 [[nodiscard]] std::string quote(const std::string& text);

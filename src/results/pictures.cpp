@@ -328,10 +328,10 @@ void add_marks(GnuplotScript& script, std::vector<Mark> marks,
 
 }  // namespace
 
-std::string draw_overlay(const std::filesystem::path& file,
-                         const std::string& title,
-                         const std::vector<Panel>& absolute,
-                         const std::vector<Mark>& absolute_marks) {
+GnuplotScript write_overlay(const std::filesystem::path& file,
+                            const std::string& title,
+                            const std::vector<Panel>& absolute,
+                            const std::vector<Mark>& absolute_marks) {
   std::vector<Panel> panels;
   std::transform(absolute.begin(), absolute.end(), std::back_inserter(panels),
                  count_from_offset);
@@ -382,11 +382,11 @@ std::string draw_overlay(const std::filesystem::path& file,
               p + 1 == panels.size() ? label_from("time [s]", start) : "");
   }
   script.add("unset multiplot");
-  return script.run();
+  return script;
 }
 
-std::string draw_energy(const std::filesystem::path& file,
-                        const std::string& title, const History& history) {
+GnuplotScript write_energy(const std::filesystem::path& file,
+                           const std::string& title, const History& history) {
   const auto series = [&](const char* name, auto value) {
     Series s{name, history.times, {}};
     for (const dynamics::EnergyBalance& e : history.energies) {
@@ -444,7 +444,7 @@ std::string draw_energy(const std::filesystem::path& file,
     script.add(plot);
   }
   script.add("unset multiplot");
-  return script.run();
+  return script;
 }
 
 }  // namespace limber::results

@@ -11,6 +11,7 @@
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/results/band.hpp"
+#include "limber/results/gnuplot.hpp"
 #include "limber/results/history.hpp"
 #include "limber/results/scenery.hpp"
 
@@ -44,16 +45,27 @@ struct Mark {
   std::string label;
 };
 
-/// Panels one above the other with a common time axis, each with all marks.
-[[nodiscard]] std::string draw_overlay(const std::filesystem::path& file,
-                                       const std::string& title,
-                                       const std::vector<Panel>& panels,
-                                       const std::vector<Mark>& marks = {});
+/// The script of panels one above the other with a common time axis, each with
+/// all marks; draw_overlay() runs it.
+[[nodiscard]] GnuplotScript write_overlay(const std::filesystem::path& file,
+                                          const std::string& title,
+                                          const std::vector<Panel>& panels,
+                                          const std::vector<Mark>& marks = {});
+[[nodiscard]] inline std::string draw_overlay(
+    const std::filesystem::path& file, const std::string& title,
+    const std::vector<Panel>& panels, const std::vector<Mark>& marks = {}) {
+  return write_overlay(file, title, panels, marks).run();
+}
 
-/// Energies over time: stored energy by kind, work and dissipation.
-[[nodiscard]] std::string draw_energy(const std::filesystem::path& file,
-                                      const std::string& title,
-                                      const History& history);
+/// That of energies over time: stored energy by kind, work and dissipation.
+[[nodiscard]] GnuplotScript write_energy(const std::filesystem::path& file,
+                                         const std::string& title,
+                                         const History& history);
+[[nodiscard]] inline std::string draw_energy(const std::filesystem::path& file,
+                                             const std::string& title,
+                                             const History& history) {
+  return write_energy(file, title, history).run();
+}
 
 /// Points and the triangles between them.
 struct Surface {

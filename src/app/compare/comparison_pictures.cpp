@@ -7,6 +7,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/reports/probe_pictures.hpp"
 #include "limber/results/charts/trade_picture.hpp"
+#include "limber/results/draw_all.hpp"
 
 namespace limber::app {
 namespace {
@@ -66,7 +67,9 @@ void draw_comparison(const Comparison& comparison,
     lines.push_back({std::string(to_string(run->choice.level)), &run->history});
   }
   lines.push_back({"reference", &comparison.reference.history});
-  print_warnings(results::draw_all(list_probe_pictures(lines, folder)));
+  std::vector<results::Picture> pictures;
+  results::add_charts(write_probe_charts(lines, folder), pictures);
+  print_warnings(results::draw_all(pictures));
 }
 
 }  // namespace limber::app

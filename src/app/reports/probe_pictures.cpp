@@ -60,7 +60,7 @@ results::Panel make_panel(const std::vector<NamedHistory>& lines,
 
 }  // namespace
 
-std::vector<results::Picture> list_probe_pictures(
+std::vector<results::GnuplotScript> write_probe_charts(
     const std::vector<NamedHistory>& lines,
     const std::filesystem::path& folder) {
   const results::History& history = *lines.front().history;
@@ -70,25 +70,23 @@ std::vector<results::Picture> list_probe_pictures(
     marks =
         make_marks(history.events, history.times.front(), history.times.back());
   }
-  std::vector<results::Picture> pictures;
+  std::vector<results::GnuplotScript> charts;
   for (std::size_t first = 0; first < columns.size();) {
     const std::string name = find_probe_name(columns[first].name);
     std::size_t end = first;
     while (end < columns.size() && find_probe_name(columns[end].name) == name) {
       ++end;
     }
-    pictures.emplace_back([lines, marks, folder, name, first, end] {
-      std::vector<results::Panel> panels;
-      for (std::size_t column = first; column < end; ++column) {
-        panels.push_back(make_panel(lines, column));
-      }
-      return results::draw_overlay(
-          folder / ("probe_" + results::to_path_step(name) + ".png"), name,
-          panels, marks);
-    });
+    std::vector<results::Panel> panels;
+    for (std::size_t column = first; column < end; ++column) {
+      panels.push_back(make_panel(lines, column));
+    }
+    charts.push_back(results::write_overlay(
+        folder / ("probe_" + results::to_path_step(name) + ".png"), name,
+        panels, marks));
     first = end;
   }
-  return pictures;
+  return charts;
 }
 
 }  // namespace limber::app

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "limber/dynamics/simulation/run_record.hpp"
-#include "limber/results/draw_all.hpp"
+#include "limber/results/gnuplot.hpp"
 #include "limber/results/history.hpp"
 
 namespace limber::app {
@@ -19,11 +19,9 @@ struct NamedHistory {
   const dynamics::RunRecord* record = nullptr;
 };
 
-/// One picture per probe, "probe_NAME.png": its columns, one line per history.
+/// One chart per probe, "probe_NAME.png": its columns, one line per history.
 /// All have the columns of the first. A single history's events are marked.
-/// @param lines their histories and records must exist until the pictures are
-/// drawn
-[[nodiscard]] std::vector<results::Picture> list_probe_pictures(
+[[nodiscard]] std::vector<results::GnuplotScript> write_probe_charts(
     const std::vector<NamedHistory>& lines,
     const std::filesystem::path& folder);
 

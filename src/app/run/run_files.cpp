@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
@@ -59,13 +58,11 @@ void draw_run(const runs::Run& run, const std::filesystem::path& folder) {
     return results::draw_scene(folder / "scene.png", name, run.built.model,
                                run.history, run.scenery);
   }};
-  std::ranges::move(
-      list_probe_pictures({{level, &run.history, &run.record}}, folder),
-      std::back_inserter(pictures));
-  pictures.emplace_back([&] {
-    return results::draw_energy(folder / "energy.png",
-                                name + describe_open(run), run.history);
-  });
+  std::vector<results::GnuplotScript> charts =
+      write_probe_charts({{level, &run.history, &run.record}}, folder);
+  charts.push_back(results::write_energy(
+      folder / "energy.png", name + describe_open(run), run.history));
+  results::add_charts(std::move(charts), pictures);
   print_warnings(results::draw_all(pictures));
 }
 
