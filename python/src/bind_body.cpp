@@ -41,18 +41,54 @@ double read_unit(const py::object& unit) {
   return *metres;
 }
 
+/// @throws InputError if it is no unit.
+double read_force_unit(const py::object& unit) {
+  if (unit.is_none()) return 0.0;
+  const std::string text = py::str(unit);
+  const std::optional<double> newtons = parse_force_unit(text);
+  if (!newtons)
+    throw InputError(fmt::format("force_unit is '{}'; expected {}, or None",
+                                 echo(text), kForceUnits));
+  return *newtons;
+}
+
+std::optional<Vector3> read_direction(const py::dict& wish, const char* name) {
+  const auto v = wish[name].cast<std::vector<double>>();
+  if (v.empty()) return std::nullopt;
+  if (v.size() == 3) return Vector3(v[0], v[1], v[2]);
+  throw InputError(
+      fmt::format("{} has {} numbers; expected three", name, v.size()));
+}
+
+StatedMaterial read_material(const py::dict& wish) {
+  const auto numbers = [&](const char* name) {
+    return wish[name].cast<std::vector<double>>();
+  };
+  StatedMaterial material;
+  material.youngs_modulus = numbers("youngs_modulus");
+  material.poisson_ratio = numbers("poisson_ratio");
+  material.shear_modulus = numbers("shear_modulus");
+  material.stiffness = numbers("stiffness");
+  material.density = wish["density"].cast<double>();
+  material.axis_1 = read_direction(wish, "axis_1");
+  material.axis_2 = read_direction(wish, "axis_2");
+  material.cylinder_axis = read_direction(wish, "cylinder_axis");
+  material.cylinder_point = read_direction(wish, "cylinder_point");
+  return material;
+}
+
 flexbody::Recipe make_recipe(const py::dict& wish) {
   app::MeshOptions options;
   options.file = wish["mesh"].cast<std::string>();
   options.matrices = wish["matrices"].cast<std::vector<std::string>>();
   options.recovery = wish["recovery"].cast<std::vector<std::string>>();
   options.mass = wish["mass"].cast<double>();
-  options.material = {wish["youngs_modulus"].cast<double>(),
-                      wish["poisson_ratio"].cast<double>(),
-                      wish["density"].cast<double>()};
+  options.material = read_material(wish);
   options.size = wish["size"].cast<double>();
   options.order = wish["order"].cast<int>();
   options.unit = read_unit(wish["unit"]);
+  options.force = read_force_unit(wish["force_unit"]);
+  options.ignored = wish["ignore"].cast<std::vector<std::string>>();
   flexbody::Recipe recipe = app::make_recipe(options);
   app::ModeOptions modes;
   modes.count = py::str(wish["modes"]);

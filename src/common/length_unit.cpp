@@ -12,14 +12,26 @@ namespace {
 constexpr std::array<std::pair<std::string_view, double>, 5> kMetres = {
     {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"in", 0.0254}, {"ft", 0.3048}}};
 
+constexpr std::array<std::pair<std::string_view, double>, 3> kNewtons = {
+    {{"N", 1.0}, {"kN", 1e3}, {"lbf", 4.4482216152605}}};
+
+template <typename Units>
+std::optional<double> find_unit(const Units& units, std::string_view text) {
+  for (const auto& [name, value] : units) {
+    if (text == name) return value;
+  }
+  const std::optional<double> value = parse_number(text);
+  return value && *value > 0.0 ? value : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> parse_length_unit(std::string_view text) {
-  for (const auto& [name, metres] : kMetres) {
-    if (text == name) return metres;
-  }
-  const std::optional<double> metres = parse_number(text);
-  return metres && *metres > 0.0 ? metres : std::nullopt;
+  return find_unit(kMetres, text);
+}
+
+std::optional<double> parse_force_unit(std::string_view text) {
+  return find_unit(kNewtons, text);
 }
 
 }  // namespace limber

@@ -13,4 +13,11 @@ inline constexpr std::string_view kLengthUnits =
 /// Metres of a length unit. Empty unless it is one of kLengthUnits.
 [[nodiscard]] std::optional<double> parse_length_unit(std::string_view text);
 
+/// What a message expects of a unit of force.
+inline constexpr std::string_view kForceUnits =
+    "N, kN, lbf, or a positive number of newtons";
+
+/// Newtons of a unit of force. Empty unless it is one of kForceUnits.
+[[nodiscard]] std::optional<double> parse_force_unit(std::string_view text);
+
 }  // namespace limber

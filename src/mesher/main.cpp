@@ -82,18 +82,21 @@ bool send(const std::string& bytes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fprintf(stderr,
-                 "usage: limber-mesh FILE SIZE ORDER UNIT, mesh to "
-                 "descriptor %d\n",
-                 limber::kReplyDescriptor);
+  if (argc < 6) {
+    std::fprintf(
+        stderr,
+        "usage: limber-mesh FILE SIZE ORDER UNIT FORCE [IGNORED ...], mesh to "
+        "descriptor %d\n",
+        limber::kReplyDescriptor);
     return kUsage;
   }
   std::set_new_handler(end_out_of_memory);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const limber::fem::MeshOptions options{read_number<double>(argv[2]),
                                          read_number<int>(argv[3]),
-                                         read_number<double>(argv[4])};
+                                         read_number<double>(argv[4]),
+                                         read_number<double>(argv[5]),
+                                         {argv + 6, argv + argc}};
   // A geometry's relative paths start at its own folder.
   const std::string folder = std::filesystem::path(argv[1]).parent_path();
   if (!folder.empty() && chdir(folder.c_str()) != 0) std::perror("chdir");

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/material/half_space.hpp"
 #include "limber/fem/mesh/surface.hpp"
 
 namespace limber::flexbody {
@@ -47,9 +49,53 @@ Faces find_faces(const fem::Mesh& mesh, const std::string& name) {
       mesh.source, name, group.dimension, list_surface_groups(mesh)));
 }
 
-bool is_same(const fem::ElasticMaterial& a, const fem::ElasticMaterial& b) {
-  return a.youngs_modulus == b.youngs_modulus &&
-         a.poisson_ratio == b.poisson_ratio;
+/// Normal of a face times its area, and its middle, by its corners.
+struct FlatFace {
+  Vector3 area;  // [m^2]
+  Vector3 middle;
+};
+
+FlatFace flatten(const fem::Mesh& mesh, const fem::BoundaryFace& face) {
+  const fem::ReferenceElement& element =
+      *mesh.blocks[index(face.block)].element;
+  std::vector<int> corners = fem::face_nodes(mesh, face);
+  corners.resize(
+      static_cast<std::size_t>(element.face_corners[index(face.face)]));
+  const Matrix3X x = mesh.x(Eigen::all, corners);
+  const Vector3 first = x.col(2) - x.col(0);
+  const Vector3 second = x.col(x.cols() - 1) - x.col(1);
+  const Vector3 area =
+      x.cols() == 4 ? first.cross(second) : (x.col(1) - x.col(0)).cross(first);
+  return {0.5 * area, x.rowwise().mean()};
+}
+
+/// The isotropic material of the same compliances under point forces, mean over
+/// the faces' area.
+fem::ElasticMaterial find_isotropic(const fem::Mesh& mesh, const Faces& faces,
+                                    const fem::ElasticMaterial& material) {
+  constexpr double kSameNormal = 1e-6;
+  const Anisotropy& own = *material.anisotropy;
+  Vector3 known = Vector3::Zero();  // in material axes
+  SurfaceCompliance compliance;
+  SurfaceCompliance mean;
+  double total = 0.0;
+  for (const fem::BoundaryFace& boundary : faces) {
+    const FlatFace face = flatten(mesh, boundary);
+    const double area = face.area.norm();
+    const Vector3 normal =
+        own.axes.at(face.middle).transpose() * face.area / area;
+    if ((normal - known).norm() > kSameNormal) {
+      compliance = find_surface_compliance(own.C, normal);
+      known = normal;
+    }
+    mean.normal += area * compliance.normal;
+    mean.tangential += area * compliance.tangential;
+    total += area;
+  }
+  fem::ElasticMaterial isotropic =
+      find_isotropic_surface({mean.normal / total, mean.tangential / total});
+  isotropic.density = material.density;
+  return isotropic;
 }
 
 fem::ElasticMaterial find_material(
@@ -62,14 +108,14 @@ fem::ElasticMaterial find_material(
   const fem::ElasticMaterial first = under(faces.front());
   for (const fem::BoundaryFace& face : faces) {
     const fem::ElasticMaterial other = under(face);
-    if (is_same(other, first)) continue;
+    if (have_same_elasticity(other, first)) continue;
     throw InputError(fmt::format(
         "{}: contact group '{}' covers materials of E = {:.6g} Pa, nu = {:.6g} "
         "and E = {:.6g} Pa, nu = {:.6g}. Make a group of each.",
         mesh.source, name, first.youngs_modulus, first.poisson_ratio,
         other.youngs_modulus, other.poisson_ratio));
   }
-  return first;
+  return first.anisotropy ? find_isotropic(mesh, faces, first) : first;
 }
 
 }  // namespace

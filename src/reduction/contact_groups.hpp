@@ -18,7 +18,9 @@ inline constexpr std::string_view kWholeSkin = "skin";
 struct ContactGroup {
   std::string name;
   std::vector<fem::BoundaryFace> faces;
-  fem::ElasticMaterial material;  ///< under the faces
+  /// Under the faces; of an anisotropic one, the isotropic material whose
+  /// surface is as compliant (find_surface_compliance), mean over the faces.
+  fem::ElasticMaterial material;
 };
 
 /// @param materials one a region of the mesh

@@ -10,6 +10,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/hooke.hpp"
 #include "limber/fem/solid/locking.hpp"
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/modal/selection.hpp"
@@ -19,7 +20,9 @@ fem::TracedMesh read_source(const MeshSource& source,
                             const Progress& progress) {
   report(progress, "reading the mesh", 0.0);
   return fem::read_traced_mesh(
-      source.file, {source.size, source.order, source.unit}, progress);
+      source.file,
+      {source.size, source.order, source.unit, source.force, source.ignored},
+      progress);
 }
 
 fem::Elasticity find_elasticity(MaterialLaw law) {
@@ -27,20 +30,29 @@ fem::Elasticity find_elasticity(MaterialLaw law) {
                                          : fem::Elasticity::st_venant_kirchhoff;
 }
 
-std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
-                                                 const Recipe& recipe) {
-  if (recipe.materials.empty())
-    throw InputError(fmt::format(
-        "{}: its solids have no material. Give its Young's modulus, Poisson's "
-        "ratio and density.",
-        recipe.mesh.file.string()));
+namespace {
+
+std::vector<fem::MaterialAssignment> list_assignments(const Recipe& recipe) {
   std::vector<fem::MaterialAssignment> assignments;
   for (const MaterialRegion& region : recipe.materials)
-    assignments.push_back(
-        {region.group,
-         {region.material.youngs_modulus, region.material.poisson_ratio,
-          region.material.density}});
-  return fem::assign_materials(mesh, assignments);
+    assignments.push_back({region.group, region.material});
+  return assignments;
+}
+
+}  // namespace
+
+std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
+                                                 const Recipe& recipe) {
+  std::vector<fem::ElasticMaterial> materials =
+      fem::assign_materials(mesh, list_assignments(recipe));
+  if (recipe.manifold)
+    fem::require_law(mesh, materials, find_elasticity(recipe.law));
+  return materials;
+}
+
+std::vector<std::string> find_file_materials(const fem::Mesh& mesh,
+                                             const Recipe& recipe) {
+  return fem::describe_file_materials(mesh, list_assignments(recipe));
 }
 
 namespace {

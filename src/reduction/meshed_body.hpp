@@ -26,6 +26,11 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<fem::ElasticMaterial> find_materials(
     const fem::Mesh& mesh, const Recipe& recipe);
 
+/// A line for the material that the mesh's file states for each region, and
+/// whether the recipe replaces it.
+[[nodiscard]] std::vector<std::string> find_file_materials(
+    const fem::Mesh& mesh, const Recipe& recipe);
+
 /// A recipe's body with its matrices, for computing modes and static responses.
 /// Part of limber_reduction.
 struct MeshedBody : ElasticBody {

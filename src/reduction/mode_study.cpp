@@ -78,6 +78,7 @@ ModeStudy study(const MeshedBody& body, const Recipe& recipe,
   result.mass = inertia.mass;
   result.p_MoBcm_M = inertia.center;
   result.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
+  result.found = find_file_materials(body.mesh, recipe);
   result.locking = find_locking(body, recipe, modes.lambda, modes.Phi);
   report(progress, "studied", 1.0);
   return result;

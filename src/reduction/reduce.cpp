@@ -9,6 +9,7 @@
 #include "limber/common/files/file_stamp.hpp"
 #include "limber/common/records/digest.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/material.hpp"
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
 #include "limber/reduction/contact_surface.hpp"
@@ -151,10 +152,8 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
                    const Progress& progress) {
   const auto pieces = std::make_shared<Pieces>(made);
   MeshAtHand mesh;
-  mesh.record = {fem::find_mesh_content(made->mesh),
-                 made->notices,
-                 {},
-                 made->files,
+  mesh.record = {fem::find_mesh_content(made->mesh), made->notices,
+                 fem::describe_file_materials(made->mesh, {}), made->files,
                  made->is_repeatable};
   mesh.reduce = [made, progress](const Recipe& recipe) {
     return flexbody::reduce(recipe, made, progress);

@@ -10,6 +10,7 @@
 #include "limber/fem/matrices/read_matrices.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_wire.hpp"
+#include "limber/fem/nastran/bulk_data.hpp"
 #endif
 #include "fuzz/body_edits.hpp"
 #include "limber/app/study/study_reader.hpp"
@@ -114,6 +115,10 @@ void read_input_deck(std::string_view bytes) {
   (void)fem::read_solid_deck(write_input(bytes, "input.inp"));
 }
 
+void read_bulk_deck(std::string_view bytes) {
+  (void)fem::read_bulk_data(write_input(bytes, "deck.bdf"));
+}
+
 // Files of a model, each behind a line "=== NAME".
 void read_matrix_files(std::string_view bytes) {
   constexpr std::string_view kMark = "=== ";
@@ -156,6 +161,7 @@ const std::vector<Reader>& all_readers() {
       {"mesh_reply", read_mesh_reply},
       {"matrices", read_matrix_files},
       {"input_deck", read_input_deck},
+      {"bulk_deck", read_bulk_deck},
 #endif
   };
   return readers;

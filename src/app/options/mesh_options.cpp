@@ -13,17 +13,34 @@
 namespace limber::app {
 namespace {
 
-void check_size(const MeshOptions& options,
-                std::vector<std::string>& problems) {
-  const auto require = [&](bool fine, const std::string& text) {
-    if (!fine) problems.push_back(text);
-  };
-  require(options.size >= 0.0,
-          fmt::format("--size is {}; expected >= 0", options.size));
-  require(options.unit >= 0.0 && std::isfinite(options.unit),
-          fmt::format("--unit is {} m; expected > 0", options.unit));
-  require(options.order >= 0 && options.order <= 3,
-          fmt::format("--order is {}; expected 1, 2 or 3", options.order));
+void check_isotropic(const StatedMaterial& m,
+                     std::vector<std::string>& problems) {
+  const double E = m.youngs_modulus.front();
+  const double nu = m.poisson_ratio.front();
+  if (!(E > 0.0))
+    problems.push_back(
+        fmt::format("--youngs-modulus is {} Pa; expected > 0", E));
+  if (!(nu > -1.0 && nu < 0.5))
+    problems.push_back(
+        fmt::format("--poisson-ratio is {}; expected in (-1, 0.5): at 0.5 "
+                    "the material is incompressible and its stiffness has "
+                    "no bound",
+                    nu));
+}
+
+void check_material(const StatedMaterial& m, bool is_deck,
+                    std::vector<std::string>& problems) {
+  if (is_deck && m.is_empty()) return;  // the deck's
+  try {
+    static_cast<void>(make_material(m));
+    if (!m.is_anisotropic()) check_isotropic(m, problems);
+  } catch (const InputError& error) {
+    for (const std::string& problem : error.problems())
+      problems.push_back("material: " + problem);
+  }
+  if (!(m.density > 0.0))
+    problems.push_back(
+        fmt::format("--density is {} kg/m^3; expected > 0", m.density));
 }
 
 void check(const MeshOptions& options) {
@@ -31,25 +48,65 @@ void check(const MeshOptions& options) {
   const auto require = [&](bool fine, const std::string& text) {
     if (!fine) problems.push_back(text);
   };
-  const flexbody::Material& m = options.material;
-  if (has_deck_name(options.file) && m.youngs_modulus == 0.0 &&
-      m.poisson_ratio == 0.0 && m.density == 0.0) {
-    check_size(options, problems);
-    if (!problems.empty()) throw InputError(problems);
-    return;
-  }
-  require(
-      m.youngs_modulus > 0.0,
-      fmt::format("--youngs-modulus is {} Pa; expected > 0", m.youngs_modulus));
-  require(m.poisson_ratio > -1.0 && m.poisson_ratio < 0.5,
-          fmt::format("--poisson-ratio is {}; expected in (-1, 0.5): at 0.5 "
-                      "the material is incompressible and its stiffness has "
-                      "no bound",
-                      m.poisson_ratio));
-  require(m.density > 0.0,
-          fmt::format("--density is {} kg/m^3; expected > 0", m.density));
-  check_size(options, problems);
+  check_material(options.material, has_deck_name(options.file), problems);
+  require(options.force >= 0.0 && std::isfinite(options.force),
+          fmt::format("--force-unit is {} N; expected > 0", options.force));
+  require(options.size >= 0.0,
+          fmt::format("--size is {}; expected >= 0", options.size));
+  require(options.unit >= 0.0 && std::isfinite(options.unit),
+          fmt::format("--unit is {} m; expected > 0", options.unit));
+  require(options.order >= 0 && options.order <= 3,
+          fmt::format("--order is {}; expected 1, 2 or 3", options.order));
   if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace
+
+namespace {
+
+/// Numbers in one argument, separated by commas.
+void add_numbers(CLI::App& command, const char* name,
+                 std::vector<double>& values, const char* text) {
+  command.add_option(name, values, text)
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+void add_vector(CLI::App& command, const char* name,
+                std::optional<Vector3>& vector, const char* text) {
+  command
+      .add_option_function<std::vector<double>>(
+          name,
+          [&vector, name](const std::vector<double>& v) {
+            if (v.size() != 3)
+              throw CLI::ValidationError(fmt::format(
+                  "{} has {} numbers; expected X,Y,Z", name, v.size()));
+            vector = Vector3(v[0], v[1], v[2]);
+          },
+          text)
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+void add_material(CLI::App& command, StatedMaterial& material) {
+  add_numbers(command, "--youngs-modulus", material.youngs_modulus,
+              "E, or E1,E2,E3 of an orthotropic material [Pa]");
+  add_numbers(command, "--poisson-ratio", material.poisson_ratio,
+              "nu, or nu12,nu13,nu23 [-]");
+  add_numbers(command, "--shear-modulus", material.shear_modulus,
+              "G12,G13,G23 of an orthotropic material [Pa]");
+  add_numbers(command, "--stiffness", material.stiffness,
+              "21 constants C11,C12,..,C16,C22,.. of an anisotropic material, "
+              "components 11, 22, 33, 12, 23, 13, in place of moduli [Pa]");
+  command.add_option("--density", material.density, "rho [kg/m^3]");
+  add_vector(command, "--axis-1", material.axis_1,
+             "Material axis 1 in the mesh frame: X,Y,Z");
+  add_vector(command, "--axis-2", material.axis_2,
+             "A direction in the plane of material axes 1 and 2: X,Y,Z");
+  add_vector(command, "--cylinder-axis", material.cylinder_axis,
+             "Material axes 1 radial, 2 tangential, 3 along this axis");
+  add_vector(command, "--cylinder-point", material.cylinder_point,
+             "A point on that axis, the origin if absent: X,Y,Z [m]");
 }
 
 }  // namespace
@@ -58,9 +115,7 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
   add_mesh_options(command, options);
   // What a mesh needs is not needed then.
   const auto release = [&command](const std::string&) {
-    for (const char* name :
-         {"mesh", "--youngs-modulus", "--poisson-ratio", "--density"})
-      command.get_option(name)->required(false);
+    command.get_option("mesh")->required(false);
   };
   command
       .add_option("--matrices", options.matrices,
@@ -81,23 +136,10 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option("mesh", options.file,
-                  "Mesh (.msh), geometry (.geo, .step), or deck of beams and "
-                  "shells with its materials (.bdf, .inp)")
-      ->required()
-      ->each([&command](const std::string& file) {
-        if (!has_deck_name(file)) return;
-        for (const char* name :
-             {"--youngs-modulus", "--poisson-ratio", "--density"})
-          command.get_option(name)->required(false);
-      });
-  command
-      .add_option("--youngs-modulus", options.material.youngs_modulus, "E [Pa]")
+                  "Mesh (.msh), geometry (.geo, .step), or deck (.bdf, .inp) "
+                  "with its materials")
       ->required();
-  command
-      .add_option("--poisson-ratio", options.material.poisson_ratio, "nu [-]")
-      ->required();
-  command.add_option("--density", options.material.density, "rho [kg/m^3]")
-      ->required();
+  add_material(command, options.material);
   command.add_option("--size", options.size,
                      "Element size when meshing geometry [mesh units, of "
                      "STEP and IGES millimetres]");
@@ -106,6 +148,12 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       "Element order when meshing geometry: 1, 2 or 3; 2 also makes a "
       "finished mesh of first order one of second order");
   add_unit(command, options.unit);
+  add_force_unit(command, options.force);
+  command
+      .add_option("--ignore", options.ignored,
+                  "A card, keyword or element type of a deck that is left out "
+                  "though the body lacks it then; repeatable")
+      ->allow_extra_args(false);
 }
 
 namespace {
@@ -115,15 +163,15 @@ void check_matrices(const MeshOptions& options) {
   const auto require = [&](bool fine, const std::string& text) {
     if (!fine) problems.push_back(text);
   };
-  const flexbody::Material& m = options.material;
   require(options.file.empty(),
           fmt::format("'{}' is a mesh, and --matrices is given; keep one",
                       options.file));
-  require(m.youngs_modulus == 0.0 && m.poisson_ratio == 0.0 && m.density == 0.0,
-          "--youngs-modulus, --poisson-ratio and --density go with a mesh; "
-          "--matrices have their material");
-  require(options.size == 0.0 && options.order == 0,
-          "--size and --order go with a mesh");
+  require(options.material.is_empty(),
+          "--youngs-modulus, --poisson-ratio, --density and other constants go "
+          "with a mesh; --matrices have their material");
+  require(options.size == 0.0 && options.order == 0 && options.force == 0.0 &&
+              options.ignored.empty(),
+          "--size, --order, --force-unit and --ignore go with a mesh");
   require(options.mass > 0.0 && std::isfinite(options.mass),
           fmt::format("--mass is {} kg; --matrices need the mass of the whole "
                       "model, which its program prints, > 0",
@@ -162,8 +210,10 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   recipe.mesh.order = options.order;
   recipe.mesh.unit = options.unit;
   recipe.name = recipe.mesh.file.stem().string();
-  if (!has_deck_name(options.file) || options.material.youngs_modulus != 0.0)
-    recipe.materials = {{"", options.material}};
+  recipe.mesh.force = options.force;
+  recipe.mesh.ignored = options.ignored;
+  if (!options.material.is_empty())
+    recipe.materials = {{"", make_material(options.material)}};
   return recipe;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/material/stated_material.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 
 namespace CLI {
@@ -18,10 +19,12 @@ struct MeshOptions {
   std::vector<std::string> matrices;  ///< a folder, or files; empty: a mesh
   std::vector<std::string> recovery;  ///< files of their recovery rows
   double mass = 0.0;                  ///< of the matrices, as stated [kg]
-  flexbody::Material material;
-  double size = 0.0;  ///< element size [mesh units]; 0: the file's
-  int order = 0;      ///< of elements, 1 to 3; 0: the file's, else 2 [-]
-  double unit = 0.0;  ///< metres per mesh unit [m]; 0: the file's, or 1
+  StatedMaterial material;
+  double size = 0.0;   ///< element size [mesh units]; 0: the file's
+  int order = 0;       ///< of elements, 1 to 3; 0: the file's, else 2 [-]
+  double unit = 0.0;   ///< metres per mesh unit [m]; 0: the file's, or 1
+  double force = 0.0;  ///< newtons per unit of force of a deck; 0: not stated
+  std::vector<std::string> ignored;  ///< cards of a deck left out
 };
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);

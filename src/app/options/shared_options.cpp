@@ -45,21 +45,37 @@ std::filesystem::path find_results_folder(const std::string& out,
   return std::filesystem::path("out") / default_name;
 }
 
-CLI::Option* add_unit(CLI::App& command, double& metres) {
-  const auto read = [&metres](const std::string& text) {
-    const std::optional<double> found = parse_length_unit(text);
+namespace {
+
+CLI::Option* add_unit_option(CLI::App& command, const char* name, double& value,
+                             std::optional<double> (*parse)(std::string_view),
+                             std::string_view expected, const char* text) {
+  const auto read = [=, &value](const std::string& given) {
+    const std::optional<double> found = parse(given);
     if (!found) {
       throw CLI::ValidationError(
-          fmt::format("--unit is '{}'; expected {}", echo(text), kLengthUnits));
+          fmt::format("{} is '{}'; expected {}", name, echo(given), expected));
     }
-    metres = *found;
+    value = *found;
   };
-  return command
-      .add_option_function<std::string>(
-          "--unit", read,
-          "Length unit of the mesh: m, cm, mm, in, ft or metres (default: the "
-          "file's, where it states one, else m)")
+  return command.add_option_function<std::string>(name, read, text)
       ->type_name("UNIT");
+}
+
+}  // namespace
+
+CLI::Option* add_unit(CLI::App& command, double& metres) {
+  return add_unit_option(
+      command, "--unit", metres, parse_length_unit, kLengthUnits,
+      "Length unit of the mesh: m, cm, mm, in, ft or metres (default: the "
+      "file's, where it states one, else m)");
+}
+
+CLI::Option* add_force_unit(CLI::App& command, double& newtons) {
+  return add_unit_option(
+      command, "--force-unit", newtons, parse_force_unit, kForceUnits,
+      "Unit of force of a deck's materials: N, kN, lbf or newtons (default: N "
+      "where lengths are in m, cm or mm)");
 }
 
 CLI::Option* add_json(CLI::App& command, bool& is_asked) {

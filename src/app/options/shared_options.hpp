@@ -30,6 +30,10 @@ std::filesystem::path find_results_folder(const std::string& out,
 /// --unit of a mesh: a name or a number [m]; `metres` stays without it.
 CLI::Option* add_unit(CLI::App& command, double& metres);
 
+/// --force-unit of a deck's materials: a name or a number [N]; `newtons` stays
+/// without it.
+CLI::Option* add_force_unit(CLI::App& command, double& newtons);
+
 /// --json
 CLI::Option* add_json(CLI::App& command, bool& is_asked);
 

@@ -8,7 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "limber/common/pose.hpp"
 #include "limber/common/types.hpp"
+#include "limber/fem/abaqus/deck_materials.hpp"
 #include "limber/fem/abaqus/solid_type.hpp"
 #include "limber/fem/mesh/solid_deck.hpp"
 #include "limber/fem/text/deck_sets.hpp"
@@ -31,16 +33,6 @@ struct DeckElement {
   std::size_t line = 0;
 };
 
-struct DeckMaterial {
-  std::string elastic = {};  ///< first line of *ELASTIC
-  bool is_isotropic = true;
-};
-
-struct DeckSection {
-  std::string elset = {};
-  std::string material = {};
-};
-
 struct DeckSurfacePart {
   std::string place = {};  ///< "file:line"
   std::string of = {};     ///< a set, or an element's number
@@ -58,12 +50,14 @@ struct DeckContent {
   DeckSets element_sets;
   std::vector<Keyword> nodes_of;  ///< *NSET with ELSET
   std::map<std::string, std::vector<DeckSurfacePart>> surfaces;
-  std::vector<DeckSection> sections;
-  std::map<std::string, DeckMaterial> materials;
+  DeckMaterials materials;
   /// Names of sets and surfaces, which are in upper case, as first written.
   std::map<std::string, std::string> spelling;
   DeckCounts constraints;  ///< and contact
-  DeckCounts unused;       ///< supports, loads, axes of materials
+  DeckCounts unused;       ///< supports, loads
+
+  /// Adds a part's content, whose numbers and names are its own, moved.
+  void take(DeckContent part, const Pose& pose);
 
   /// Null without it.
   [[nodiscard]] const DeckElement* find(long number) const;

@@ -15,6 +15,7 @@
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/upper_case.hpp"
 #include "limber/fem/abaqus/deck_content.hpp"
 
 namespace limber::fem {
@@ -51,8 +52,15 @@ bool is_edge(std::string_view type) {
 
 class SolidDeckReader {
  public:
-  explicit SolidDeckReader(const std::filesystem::path& file)
-      : file_(file), content_(read_deck_content(file)) {}
+  SolidDeckReader(const std::filesystem::path& file,
+                  const std::vector<std::string>& ignored)
+      : file_(file), content_(read_deck_content(file)) {
+    for (const std::string& name : ignored) {
+      const std::string upper = to_upper(name);
+      ignored_.insert(upper.starts_with('*') ? upper : "elements " + upper);
+      ignored_.insert("*" + upper);
+    }
+  }
 
   SolidDeck read() {
     refuse_others();
@@ -66,7 +74,7 @@ class SolidDeckReader {
  private:
   [[nodiscard]] std::set<long> find_described() const {
     std::set<long> described;
-    for (const DeckSection& section : content_.sections)
+    for (const auto& section : content_.materials.sections())
       for (const long number : content_.find_elements(section.elset))
         described.insert(number);
     return described;
@@ -85,16 +93,20 @@ class SolidDeckReader {
       if (entry.count++ == 0) entry.first = content_.place_of(element);
     }
     refused_.insert(content_.constraints.begin(), content_.constraints.end());
+    for (const std::string& name : ignored_)
+      if (auto entry = refused_.extract(name))
+        left_out_.insert(std::move(entry));
     std::vector<std::string> problems;
     for (const auto& [what, entry] : refused_)
       problems.push_back(fmt::format(
           "{}: {}{} would be lost. Expected solid elements only (C3D4, C3D10, "
           "C3D8, C3D20, C3D6, C3D15, C3D5): leave it out and model it in the "
-          "scene by links and joints, or bring the body by its matrices.",
+          "scene by links and joints, bring the body by its matrices, or "
+          "ignore {} to go on without.",
           entry.first, what,
-          entry.count == 1
-              ? std::string()
-              : fmt::format(" ({}, the first here)", entry.count)));
+          entry.count == 1 ? std::string()
+                           : fmt::format(" ({}, the first here)", entry.count),
+          what.substr(what.find_first_of(" *") + 1)));
     if (!problems.empty()) throw InputError(problems);
   }
 
@@ -112,6 +124,7 @@ class SolidDeckReader {
     for (const auto& [name, numbers] : content_.element_sets.all())
       for (const long number : std::set<long>(numbers.begin(), numbers.end()))
         sets[static_cast<std::size_t>(number)].push_back(content_.spell(name));
+    const SectionOf section_of = find_sections();
     std::map<std::vector<std::string>, int> regions;
     for (const DeckElement& element : content_.elements) {
       if (element.solid == nullptr) continue;
@@ -119,11 +132,38 @@ class SolidDeckReader {
       const std::vector<std::string>& names = sets[element.number];
       const auto [region, is_new] =
           regions.try_emplace(names, static_cast<int>(regions.size()));
-      if (is_new) deck_.region_groups.push_back(names);
+      if (is_new) {
+        deck_.region_groups.push_back(names);
+        const auto found = section_of.find(element.number);
+        deck_.materials.push_back(
+            found == section_of.end()
+                ? RegionMaterial{}
+                : content_.materials.find(*found->second, content_.spelling));
+      }
       append(element.solid->gmsh_type, element.solid->order, element,
              region->second, deck_.solids);
       used_.insert(element.nodes.begin(), element.nodes.end());
     }
+  }
+
+  /// Elements of one region have the same section, as it is of a set.
+  using SectionOf =
+      std::unordered_map<std::size_t, const DeckMaterials::Section*>;
+  [[nodiscard]] SectionOf find_sections() const {
+    SectionOf sections;
+    for (const auto& section : content_.materials.sections()) {
+      for (const long number : content_.find_elements(section.elset)) {
+        const auto [entry, is_new] =
+            sections.emplace(static_cast<std::size_t>(number), &section);
+        if (is_new || entry->second->elset == section.elset) continue;
+        throw InputError(fmt::format(
+            "{}: element {} has two sections, of the sets {} and {}. Expected "
+            "one.",
+            section.place, number, echo(entry->second->elset),
+            echo(section.elset)));
+      }
+    }
+    return sections;
   }
 
   void check_nodes(const DeckElement& element) const {
@@ -234,7 +274,6 @@ class SolidDeckReader {
   void report() {
     report_unused_nodes();
     report_types();
-    report_materials();
     const auto tell = [this](const DeckCounts& counts, const char* why) {
       if (counts.empty()) return;
       std::vector<std::string> texts;
@@ -244,10 +283,10 @@ class SolidDeckReader {
       deck_.notices.push_back(fmt::format("{}: {}: {}.", file_.string(), why,
                                           fmt::join(texts, ", ")));
     };
+    tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(edges_, "left out as edges, as no section describes them");
     tell(content_.unused,
-         "not used, as supports, loads and material axes are those "
-         "of the scene");
+         "not used, as supports and loads are those of the scene");
   }
 
   void report_unused_nodes() {
@@ -278,50 +317,21 @@ class SolidDeckReader {
                       file_.string(), fmt::join(others, ", ")));
   }
 
-  void report_materials() {
-    std::map<std::string, std::set<std::string>> used;
-    for (const DeckSection& section : content_.sections) {
-      const auto is_solid = [&](long number) {
-        const DeckElement* element = content_.find(number);
-        return element != nullptr && element->solid != nullptr;
-      };
-      if (std::ranges::any_of(content_.find_elements(section.elset), is_solid))
-        used[section.material].insert(section.elset);
-    }
-    const bool are_isotropic =
-        std::ranges::all_of(used, [&](const auto& entry) {
-          const auto found = content_.materials.find(entry.first);
-          return found == content_.materials.end() ||
-                 found->second.is_isotropic;
-        });
-    if (used.size() < 2 && are_isotropic) return;
-    std::vector<std::string> texts;
-    for (const auto& [name, sets] : used) {
-      const auto found = content_.materials.find(name);
-      const bool is_known = found != content_.materials.end();
-      texts.push_back(fmt::format(
-          "{} ({}*ELASTIC {}) of {}", name,
-          is_known && !found->second.is_isotropic ? "anisotropic, " : "",
-          is_known ? found->second.elastic : "-", fmt::join(sets, ", ")));
-    }
-    deck_.notices.push_back(fmt::format(
-        "{}: its materials are not read: {}. Give each of the groups its "
-        "(isotropic) material.",
-        file_.string(), fmt::join(texts, "; ")));
-  }
-
   std::filesystem::path file_;
   DeckContent content_;
   SolidDeck deck_;
   std::set<std::size_t> used_;  // nodes
   DeckCounts refused_;
   DeckCounts edges_;
+  DeckCounts left_out_;
+  std::set<std::string> ignored_;
 };
 
 }  // namespace
 
-SolidDeck read_solid_deck(const std::filesystem::path& file) {
-  return SolidDeckReader(file).read();
+SolidDeck read_solid_deck(const std::filesystem::path& file,
+                          const std::vector<std::string>& ignored) {
+  return SolidDeckReader(file, ignored).read();
 }
 
 }  // namespace limber::fem

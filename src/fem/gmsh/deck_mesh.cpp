@@ -64,10 +64,44 @@ std::vector<std::string> list_volumes(const SolidDeck& deck) {
   return names;
 }
 
+/// Stress is force / length^2, density force time^2 / length^4 with seconds.
+void convert(double unit, double force, SolidMaterial& material) {
+  const double stress = force / (unit * unit);
+  material.youngs_modulus *= stress;
+  material.density *= stress / (unit * unit);
+  if (!material.anisotropy) return;
+  material.anisotropy->C *= stress;
+  material.anisotropy->axes.point *= unit;
+}
+
+/// Empty if there are none. Decks in inches or feet have forces in pounds or in
+/// newtons: the user must state it.
+std::vector<RegionMaterial> to_si(std::vector<RegionMaterial> materials,
+                                  const MeshOptions& options) {
+  const auto is_nameless = [](const RegionMaterial& m) {
+    return m.name.empty();
+  };
+  if (std::ranges::all_of(materials, is_nameless)) return {};
+  const double unit = options.unit;
+  const bool is_metric = unit == 1.0 || unit == 1e-2 || unit == 1e-3;
+  for (RegionMaterial& stated : materials) {
+    if (is_nameless(stated)) continue;
+    if (options.force == 0.0 && !is_metric && stated.problem.empty())
+      stated.problem = fmt::format(
+          "{} is in a unit of force that is not known, as lengths are in {:g} "
+          "m. Expected the deck's unit of force (force unit N or lbf, for "
+          "example), or a material in its place.",
+          stated.name, unit);
+    convert(unit, options.force == 0.0 ? 1.0 : options.force, stated.material);
+  }
+  return materials;
+}
+
 }  // namespace
 
 RawMesh make_deck_mesh(const std::filesystem::path& file, SolidDeck deck,
-                       double unit) {
+                       const MeshOptions& options) {
+  const double unit = options.unit;
   if (deck.solids.empty())
     throw InputError(fmt::format(
         "{}: the deck has no solid elements. Expected tetrahedra, hexahedra, "
@@ -83,6 +117,7 @@ RawMesh make_deck_mesh(const std::filesystem::path& file, SolidDeck deck,
   for (const auto& [type, block] : deck.solids)
     mesh.blocks.push_back(make_block(block, index, types));
   mesh.volume_groups = deck.region_groups;
+  mesh.materials = to_si(std::move(deck.materials), options);
   for (const std::string& name : list_volumes(deck))
     mesh.groups.push_back(
         make_group(name, 3, find_volume(deck, name), index, types));

@@ -254,9 +254,10 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
       choose_unit(file, options.unit,
                   content ? content->unit : find_stated_unit(file), notices);
   if (kind == MeshFileKind::bulk_data)
-    return make_deck_mesh(file, read_bulk_data(file), options.unit);
+    return make_deck_mesh(file, read_bulk_data(file, options.ignored), options);
   if (kind == MeshFileKind::input_deck)
-    return make_deck_mesh(file, read_solid_deck(file), options.unit);
+    return make_deck_mesh(file, read_solid_deck(file, options.ignored),
+                          options);
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);

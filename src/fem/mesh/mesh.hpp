@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/material/solid_material.hpp"
 #include "limber/common/types.hpp"
 #include "limber/fem/mesh/reference_element.hpp"
 
@@ -34,6 +35,14 @@ struct PhysicalGroup {
   std::vector<ElementBlock> blocks;  ///< its elements (regions unused)
 };
 
+/// What a file states of a region's material.
+struct RegionMaterial {
+  std::string name;        ///< in the file; empty: none
+  SolidMaterial material;  ///< in SI units
+  /// Why it cannot be used; empty: it can.
+  std::string problem;
+};
+
 /// A face of one solid element that no other shares: part of the surface.
 struct BoundaryFace {
   int block = 0;            ///< index into Mesh::blocks
@@ -51,6 +60,8 @@ struct Mesh {
   std::vector<PhysicalGroup> groups;  ///< all named groups
   /// Per region (geometric volume): the physical groups that it belongs to.
   std::vector<std::vector<std::string>> volume_groups;
+  /// Of each region by its file; empty if that states none at all.
+  std::vector<RegionMaterial> materials;
   std::vector<BoundaryFace> boundary_faces;
   std::vector<int> boundary_nodes;  ///< sorted indices
 

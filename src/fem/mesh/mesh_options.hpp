@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace limber::fem {
 
 struct MeshOptions {
@@ -11,6 +14,10 @@ struct MeshOptions {
   int order = 0;
   /// Metres per mesh unit; 0: the file's, where it states one, else 1 [m].
   double unit = 0.0;
+  /// Newtons per unit of force of a deck's materials; 0: not stated [N].
+  double force = 0.0;
+  /// Cards of a deck (keywords, elements) that may be left out.
+  std::vector<std::string> ignored = {};
 };
 
 }  // namespace limber::fem

@@ -47,6 +47,7 @@ class Separation {
       mesh.tags.push_back(mesh_.tags[index(node)]);
     }
     mesh.volume_groups = mesh_.volume_groups;
+    mesh.materials = mesh_.materials;
     take_elements(p, piece);
     check_connected(mesh);
     take_surface(p, piece);

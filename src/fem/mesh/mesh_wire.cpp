@@ -26,7 +26,8 @@ static void exchange(Wire& wire, ReferenceElement& element) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x32304853454d4d4c;  // "LMMESH02"
+constexpr std::uint64_t kMagic = 0x33304853454d4d4c;         // "LMMESH03"
+constexpr std::uint64_t kContentMagic = 0x32304853454d4d4c;  // "LMMESH02"
 
 using Element = std::shared_ptr<const ReferenceElement>;
 
@@ -44,6 +45,22 @@ struct WireGroup {
   std::vector<int> nodes;
   std::vector<WireBlock> blocks;
 };
+
+struct WireMaterial {
+  std::string name;
+  std::string problem;
+  std::vector<double> isotropic;  // E, nu, rho
+  MatrixX C;                      // 6 x 6, or empty
+  bool is_cylindrical = false;
+  MatrixX directions;  // 3 x 3
+  Vector3 point = Vector3::Zero();
+};
+
+void exchange(Wire& wire, WireMaterial& material) {
+  wire(material.name, material.problem, material.isotropic, material.C,
+       material.is_cylindrical, material.directions, material.point[0],
+       material.point[1], material.point[2]);
+}
 
 void exchange(Wire& wire, WireBlock& block) {
   wire(block.element, block.tags, block.nodes, block.regions);
@@ -163,6 +180,44 @@ std::vector<ElementBlock> from_wire(std::vector<WireBlock> blocks,
   return result;
 }
 
+std::vector<WireMaterial> to_wire(
+    const std::vector<RegionMaterial>& materials) {
+  std::vector<WireMaterial> result;
+  for (const auto& [name, material, problem] : materials) {
+    WireMaterial wire;
+    wire.name = name;
+    wire.problem = problem;
+    wire.isotropic = {material.youngs_modulus, material.poisson_ratio,
+                      material.density};
+    if (material.anisotropy) {
+      wire.C = material.anisotropy->C;
+      wire.is_cylindrical = material.anisotropy->axes.is_cylindrical;
+      wire.directions = material.anisotropy->axes.directions;
+      wire.point = material.anisotropy->axes.point;
+    }
+    result.push_back(std::move(wire));
+  }
+  return result;
+}
+
+std::vector<RegionMaterial> from_wire(
+    const std::vector<WireMaterial>& materials) {
+  std::vector<RegionMaterial> result;
+  for (const WireMaterial& wire : materials) {
+    require(wire.isotropic.size() == 3);
+    RegionMaterial& region = result.emplace_back();
+    region.name = wire.name;
+    region.problem = wire.problem;
+    region.material = {wire.isotropic[0], wire.isotropic[1], wire.isotropic[2]};
+    if (wire.C.size() == 0) continue;
+    require(wire.C.rows() == 6 && wire.C.cols() == 6 &&
+            wire.directions.rows() == 3 && wire.directions.cols() == 3);
+    region.material.anisotropy =
+        Anisotropy{wire.C, {wire.is_cylindrical, wire.directions, wire.point}};
+  }
+  return result;
+}
+
 /// The mesh in serialised form.
 struct WireMesh {
   std::vector<ReferenceElement> elements;
@@ -243,7 +298,8 @@ std::string pack_reply(const MeshReply& reply) {
   exchange_head(wire, head);
   if (!reply.problems.empty()) return wire.bytes();
   WireMesh mesh = to_wire(reply.mesh);
-  wire(mesh);
+  std::vector<WireMaterial> materials = to_wire(reply.mesh.materials);
+  wire(mesh, materials);
   return wire.bytes();
 }
 
@@ -253,8 +309,12 @@ MeshReply unpack_reply(std::string bytes) {
   exchange_head(wire, reply);
   if (reply.problems.empty()) {
     WireMesh mesh;
-    wire(mesh);
+    std::vector<WireMaterial> materials;
+    wire(mesh, materials);
     reply.mesh = from_wire(std::move(mesh));
+    reply.mesh.materials = from_wire(materials);
+    require(materials.empty() ||
+            materials.size() == reply.mesh.volume_groups.size());
   }
   wire.finish();
   return reply;
@@ -265,8 +325,14 @@ std::string find_mesh_content(const Mesh& mesh) {
   WireMesh parts = to_wire(mesh);
   wire(parts);
   Digest digest;
-  digest.add(kMagic);
+  digest.add(kContentMagic);
   digest.add_bytes(wire.bytes().data(), wire.bytes().size());
+  if (!mesh.materials.empty()) {
+    Wire materials;
+    std::vector<WireMaterial> values = to_wire(mesh.materials);
+    materials(values);
+    digest.add_bytes(materials.bytes().data(), materials.bytes().size());
+  }
   return digest.text();
 }
 

@@ -202,14 +202,15 @@ std::string identify_mesher() {
 MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
                      const MeshOptions& options, const Progress& progress) {
   const std::filesystem::path place = std::filesystem::absolute(file);
+  std::vector<std::string> arguments = {
+      place.string(), fmt::format("{}", options.size),
+      fmt::format("{}", options.order), fmt::format("{}", options.unit),
+      fmt::format("{}", options.force)};
+  arguments.insert(arguments.end(), options.ignored.begin(),
+                   options.ignored.end());
   const ChildEnd end = run_child(
-      {mesher.program,
-       {place.string(), fmt::format("{}", options.size),
-        fmt::format("{}", options.order), fmt::format("{}", options.unit)},
-       make_environment(),
-       mesher.seconds,
-       mesher.memory,
-       kIsAddressSpaceLimited,
+      {mesher.program, std::move(arguments), make_environment(), mesher.seconds,
+       mesher.memory, kIsAddressSpaceLimited,
        [&](std::string_view output) { report_count(output, progress); }});
   if (end.exit_status != 0 || end.signal != 0 || end.is_out_of_time ||
       end.is_reply_too_long || end.reply.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
@@ -38,6 +39,9 @@ struct SolidDeck {
   RawBlocks solids;  ///< regions as indices into region_groups
   /// Volume groups of each region.
   std::vector<std::vector<std::string>> region_groups;
+  /// Of each region, in the deck's units of length and force, and seconds;
+  /// empty if it states none at all.
+  std::vector<RegionMaterial> materials;
   std::vector<DeckGroup> groups;
   /// Parts of the file without effect here, and nodes without a solid.
   std::vector<std::string> notices;

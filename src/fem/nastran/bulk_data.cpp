@@ -13,10 +13,12 @@
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/upper_case.hpp"
 #include "limber/fem/nastran/bulk_card.hpp"
 #include "limber/fem/nastran/card_effect.hpp"
 #include "limber/fem/nastran/grid_table.hpp"
 #include "limber/fem/nastran/solid_card.hpp"
+#include "limber/fem/nastran/solid_materials.hpp"
 
 namespace limber::fem {
 namespace {
@@ -43,16 +45,24 @@ const SolidCard* find_solid_card(std::string_view name) {
 
 class BulkReader {
  public:
-  explicit BulkReader(const std::filesystem::path& file)
-      : deck_(read_deck(file)), problems_(deck_), grids_(problems_) {}
+  BulkReader(const std::filesystem::path& file,
+             const std::vector<std::string>& ignored)
+      : deck_(read_deck(file)),
+        problems_(deck_),
+        grids_(problems_),
+        materials_(deck_, problems_) {
+    for (const std::string& card : ignored) ignored_.insert(to_upper(card));
+  }
 
   SolidDeck read() {
     CardReader reader(deck_, problems_);
     BulkCard card;
     while (reader.next(card)) add(card);
     if (!has_properties_) pass_over_marks();
+    pass_over_ignored();
     for (const auto& [name, refused] : refused_) refuse(name, refused);
     set_positions();
+    set_materials();
     problems_.check();
     report_unused();
     name_regions();
@@ -72,8 +82,8 @@ class BulkReader {
       count_supports(card);
     } else if (is_coordinate_system(card.name)) {
       grids_.add_system(card);
-    } else if (card.name == "PSOLID") {
-      add_property(card);
+    } else if (materials_.add(card)) {
+      return;
     } else if (find_card_effect(card.name) == CardEffect::on_body) {
       count_card(card, refused_);
     } else if (find_card_effect(card.name) == CardEffect::outside) {
@@ -86,16 +96,6 @@ class BulkReader {
     const std::string_view fixed = card.field(kPermanent);
     if (!fixed.empty() && fixed != "0")
       count_card(card, unused_, " with supports (PS)");
-  }
-
-  void add_property(const BulkCard& card) {
-    constexpr std::size_t kMaterial = 1;
-    constexpr std::size_t kFunction = 6;
-    if (card.field(kFunction) == "PFLUID")
-      problems_.add(*card.line,
-                    "PSOLID with PFLUID is a fluid. Expected solids.");
-    const std::optional<int> id = card.integer(0, std::nullopt, problems_);
-    if (id) materials_[*id] = card.field(kMaterial);
   }
 
   void add_solid(const BulkCard& card, const SolidCard& solid) {
@@ -179,18 +179,25 @@ class BulkReader {
     }
   }
 
+  void pass_over_ignored() {
+    for (const std::string& name : ignored_)
+      if (auto entry = refused_.extract(name))
+        left_out_.insert(std::move(entry));
+  }
+
   void refuse(const std::string& name, const CardCount& refused) {
     problems_.add(
         *refused.first,
         fmt::format(
             "{}{} {} and would be lost. Expected solid elements only "
             "(CTETRA, CPENTA, CHEXA, CPYRAM): mesh it with solids, or "
-            "remove it and model it in the scene by links and joints.",
+            "remove it and model it in the scene by links and joints; or "
+            "ignore {} to go on without.",
             name,
             refused.count == 1
                 ? std::string()
                 : fmt::format(" ({} cards, the first here)", refused.count),
-            name == "MPC" ? "constrains nodes" : "is not a solid"));
+            name == "MPC" ? "constrains nodes" : "is not a solid", name));
   }
 
   void set_positions() {
@@ -223,12 +230,15 @@ class BulkReader {
 
   void report_unused() {
     report_unused_grids();
-    report_materials();
     if (!marks_.empty())
       data_.notices.push_back(fmt::format(
           "{}: left out as marks of the surface, as the deck has no "
           "properties: {}.",
           deck_.files[0].string(), list_counts(marks_)));
+    if (!left_out_.empty())
+      data_.notices.push_back(fmt::format(
+          "{}: left out as you ask, so that the body lacks them: {}.",
+          deck_.files[0].string(), list_counts(left_out_)));
     if (!unused_.empty())
       data_.notices.push_back(
           fmt::format("{}: not used: {}. Supports and loads are those of the "
@@ -279,6 +289,12 @@ class BulkReader {
     return properties;
   }
 
+  /// In the order of name_regions.
+  void set_materials() {
+    for (const int property : find_properties())
+      data_.materials.push_back(materials_.find(property, grids_));
+  }
+
   /// In place of the PIDs as regions.
   void name_regions() {
     std::map<int, int> regions;
@@ -290,35 +306,27 @@ class BulkReader {
       for (int& region : block.regions) region = regions[region];
   }
 
-  void report_materials() {
-    const std::set<int> properties = find_properties();
-    std::set<std::string> used;
-    for (const int property : properties) used.insert(materials_[property]);
-    if (used.size() < 2) return;
-    data_.notices.push_back(fmt::format(
-        "{}: its solids have {} materials, which are not read. Give each of "
-        "the groups {} (PSOLID numbers) its material.",
-        deck_.files[0].string(), used.size(), fmt::join(properties, ", ")));
-  }
-
   Deck deck_;
   DeckProblems problems_;
   GridTable grids_;
+  SolidMaterials materials_;
   SolidDeck data_;
   std::map<int, std::vector<const DeckLine*>> lines_;  // of data_.solids
   std::unordered_set<int> elements_;
   std::unordered_set<int> used_;
-  std::map<int, std::string> materials_;
   CardCounts refused_;
   CardCounts marks_;
   CardCounts unused_;
+  CardCounts left_out_;
+  std::set<std::string> ignored_;
   bool has_properties_ = false;
 };
 
 }  // namespace
 
-SolidDeck read_bulk_data(const std::filesystem::path& file) {
-  return BulkReader(file).read();
+SolidDeck read_bulk_data(const std::filesystem::path& file,
+                         const std::vector<std::string>& ignored) {
+  return BulkReader(file, ignored).read();
 }
 
 }  // namespace limber::fem

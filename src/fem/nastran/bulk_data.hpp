@@ -13,7 +13,11 @@ namespace limber::fem {
 /// @throws InputError with file and line of all that is wrong, and of other
 /// elements, which would be lost: shells, beams, masses, rigid elements; of
 /// constraints between points (MPC); and of blank mid-side nodes
-/// @returns each property (PID) as a region and a volume group of its number
-[[nodiscard]] SolidDeck read_bulk_data(const std::filesystem::path& file);
+/// @param ignored names of such cards that are left out, with a notice
+/// @returns each property (PID) as a region and a volume group of its number,
+/// with its material (MAT1, MAT9, MAT11)
+[[nodiscard]] SolidDeck read_bulk_data(
+    const std::filesystem::path& file,
+    const std::vector<std::string>& ignored = {});
 
 }  // namespace limber::fem

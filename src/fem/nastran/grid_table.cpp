@@ -112,6 +112,15 @@ std::optional<Matrix3> GridTable::find_axes(int system, const DeckLine& user) {
   return std::nullopt;
 }
 
+std::optional<MaterialAxes> GridTable::find_material_axes(
+    int system, const DeckLine& user) {
+  if (system == 0) return MaterialAxes{};
+  const System* const known = system > 0 ? solve(system, user) : nullptr;
+  if (known == nullptr || known->kind == Kind::spherical) return std::nullopt;
+  return MaterialAxes{known->kind == Kind::cylindrical, known->R,
+                      known->origin};
+}
+
 Vector3 GridTable::to_rectangular(Kind kind, const Vector3& coordinates) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const double r = coordinates[0];

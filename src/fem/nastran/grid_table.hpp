@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "limber/common/material/solid_material.hpp"
 #include "limber/common/types.hpp"
 #include "limber/fem/nastran/bulk_card.hpp"
 
@@ -35,6 +36,10 @@ class GridTable {
   /// Axes of a rectangular system as columns, in the basic one; none, and a
   /// problem, if it is missing or curvilinear. @param user for messages
   std::optional<Matrix3> find_axes(int system, const DeckLine& user);
+  /// Axes of a material: of the basic system (0), or of a rectangular or
+  /// cylindrical one [deck units]; empty for any other.
+  std::optional<MaterialAxes> find_material_axes(int system,
+                                                 const DeckLine& user);
 
  private:
   enum class Kind { rectangular, cylindrical, spherical };

@@ -15,23 +15,8 @@ namespace {
 
 using PointOfElement = std::pair<int, int>;  // node, material
 
-Vector6 calc_cauchy(Elasticity law, const LameConstants<double>& lame,
-                    const Matrix3& H) {
-  Tensor<double> gradient;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      gradient[i][j] =
-          H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    }
-  }
-  const Tensor<double> second = calc_stress(law, lame, gradient).S;
-  Matrix3 S;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      S(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          second[i][j];
-    }
-  }
+Vector6 calc_cauchy(Elasticity law, const Hooke& hooke, const Matrix3& H) {
+  const Matrix3 S = hooke.calc_stress(law, H);
   const Matrix3 F = Matrix3::Identity() + H;
   return to_components(F * S * F.transpose() / F.determinant());
 }
@@ -84,9 +69,10 @@ CauchyStress::CauchyStress(const Mesh& mesh,
     const Quadrature& rule =
         is_parallel_sided(type, x) ? type.stiffness : type.curved;
     const MatrixX fit = make_stress_fit(type, rule);
+    ElementGradients gradients = calc_gradients(type, x);
     Element element{own,
-                    calc_gradients(type, x).at,
-                    find_lame_constants(materials[region]),
+                    std::move(gradients.at),
+                    list_laws(materials[region], gradients.x),
                     {}};
     for (std::size_t a = 0; a < own.size(); ++a) {
       if (!is_wanted(own[a])) continue;
@@ -115,7 +101,7 @@ void CauchyStress::evaluate(const Eigen::Ref<const Matrix3X>& u,
             u.col(element.nodes[a]) *
             element.gradients[q].col(static_cast<Eigen::Index>(a)).transpose();
       }
-      const Vector6 s = calc_cauchy(law_, element.lame, H);
+      const Vector6 s = calc_cauchy(law_, element.laws[q], H);
       for (const Wanted& wanted : element.wanted) {
         stress.col(wanted.point) +=
             wanted.fit[static_cast<Eigen::Index>(q)] * s;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
-#include "limber/fem/solid/hyperelastic.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 
@@ -40,7 +40,7 @@ class CauchyStress {
   struct Element {
     std::vector<int> nodes;
     std::vector<Matrix3X> gradients;  // a quadrature point: 3 x nodes [1/m]
-    LameConstants<double> lame{};
+    std::vector<Hooke> laws;          // a quadrature point
     std::vector<Wanted> wanted;
   };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 
@@ -26,7 +27,7 @@ ElementGradients calc_gradients(const ReferenceElement& element,
                                 const Matrix3X& x) {
   const Quadrature& rule =
       is_parallel_sided(element, x) ? element.stiffness : element.curved;
-  ElementGradients result{{}, VectorX(rule.weights.size())};
+  ElementGradients result{{}, VectorX(rule.weights.size()), x * rule.shape};
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const MatrixX& local = rule.gradients[static_cast<std::size_t>(q)];
     const Matrix3 jacobian = x * local.transpose();  // dx_i / dxi_j
@@ -44,19 +45,9 @@ struct Moduli {
   LameConstants<double> lame;
 };
 
-Moduli calc_moduli(Elasticity law, const LameConstants<double>& lame,
-                   const Matrix3& H) {
-  Tensor<double> gradient;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      gradient[i][j] =
-          H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-  const Stress<double> stress = calc_stress(law, lame, gradient);
-  Moduli moduli{Matrix3(), Matrix3::Identity(), lame};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      moduli.S(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          stress.S[i][j];
+Moduli calc_moduli(Elasticity law, const Hooke& hooke, const Matrix3& H) {
+  const LameConstants<double>& lame = hooke.lame;
+  Moduli moduli{hooke.calc_stress(law, H), Matrix3::Identity(), lame};
   if (law == Elasticity::neo_hookean) {
     const Matrix3 F = Matrix3::Identity() + H;
     moduli.A = (F.transpose() * F).inverse();
@@ -65,10 +56,51 @@ Moduli calc_moduli(Elasticity law, const LameConstants<double>& lame,
   return moduli;
 }
 
+MatrixX calc_anisotropic_stiffness(const ElementGradients& gradients,
+                                   const ElasticMaterial& material) {
+  const Eigen::Index points = gradients.measure.size();
+  const Eigen::Index size = 3 * gradients.at.at(0).cols();
+  const std::vector<Hooke> laws = list_laws(material, gradients.x);
+  MatrixX B(6 * points, size);
+  MatrixX CB(6 * points, size);
+  for (Eigen::Index q = 0; q < points; ++q) {
+    const auto at = static_cast<std::size_t>(q);
+    B.middleRows<6>(6 * q) =
+        make_strain_rows(Matrix3::Identity(), gradients.at[at]);
+    CB.middleRows<6>(6 * q) =
+        gradients.measure[q] * (*laws[at].C * B.middleRows<6>(6 * q));
+  }
+  const MatrixX K = B.transpose() * CB;
+  return 0.5 * (K + K.transpose());
+}
+
+MatrixX calc_anisotropic_tangent(const ElementGradients& gradients,
+                                 const Matrix3X& u,
+                                 const ElasticMaterial& material) {
+  const Eigen::Index n = u.cols();
+  const std::vector<Hooke> laws = list_laws(material, gradients.x);
+  MatrixX K = MatrixX::Zero(3 * n, 3 * n);
+  for (std::size_t q = 0; q < laws.size(); ++q) {
+    const double measure = gradients.measure[static_cast<Eigen::Index>(q)];
+    const Matrix3X& g = gradients.at[q];
+    const Matrix3 H = u * g.transpose();
+    const MatrixX B = make_strain_rows(Matrix3::Identity() + H, g);
+    K += measure * (B.transpose() * (*laws[q].C * B));
+    const Matrix3 S = laws[q].calc_stress(Elasticity::st_venant_kirchhoff, H);
+    const MatrixX by_stress = measure * (g.transpose() * S * g);
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = 0; b < n; ++b)
+        K.block<3, 3>(3 * a, 3 * b).diagonal().array() += by_stress(a, b);
+  }
+  return K;
+}
+
 }  // namespace
 
 MatrixX calc_stiffness(const ElementGradients& gradients,
                        const ElasticMaterial& material) {
+  if (material.anisotropy)
+    return calc_anisotropic_stiffness(gradients, material);
   const Eigen::Index n = gradients.at.at(0).cols();
   MatrixX G(3 * n, gradients.measure.size());
   for (Eigen::Index q = 0; q < G.cols(); ++q)
@@ -95,14 +127,16 @@ MatrixX calc_element_tangent(const ReferenceElement& element, const Matrix3X& x,
                              const Matrix3X& u, const ElasticMaterial& material,
                              Elasticity law) {
   const ElementGradients gradients = calc_gradients(element, x);
-  const LameConstants<double> lame = find_lame_constants(material);
+  if (material.anisotropy)
+    return calc_anisotropic_tangent(gradients, u, material);
+  const Hooke hooke(material, Vector3::Zero());
   const Eigen::Index n = element.node_count;
   MatrixX K = MatrixX::Zero(3 * n, 3 * n);
   for (Eigen::Index q = 0; q < gradients.measure.size(); ++q) {
     const Matrix3X& g = gradients.at[static_cast<std::size_t>(q)];
     const Matrix3 H = u * g.transpose();
     const Matrix3 F = Matrix3::Identity() + H;
-    const Moduli m = calc_moduli(law, lame, H);
+    const Moduli m = calc_moduli(law, hooke, H);
     const Matrix3X p = F * m.A * g;
     const Matrix3 B = F * m.A * F.transpose();
     const MatrixX by_stress = g.transpose() * m.S * g;

@@ -8,11 +8,12 @@
 
 namespace limber::fem {
 
-/// Gradients of an element's functions in material coordinates, and the measure
-/// of each quadrature point of its stiffness.
+/// Gradients of an element's functions in material coordinates, the measure and
+/// the place of each quadrature point of its stiffness.
 struct ElementGradients {
   std::vector<Matrix3X> at;  ///< a point: 3 x nodes [1/m]
   VectorX measure;           ///< a point: w det J [m^3]
+  Matrix3X x;                ///< 3 x points [m]
 };
 /// @param x 3 x nodes [m]
 [[nodiscard]] ElementGradients calc_gradients(const ReferenceElement& element,
@@ -27,7 +28,8 @@ struct ElementGradients {
 /// Stiffness of one element, 3 nodes x 3 nodes [N/m], or of any functions.
 ///
 /// Equation   K_ab = lambda S_ab + mu S_ab^T + mu tr(S_ab) I,
-///            S_ab = int grad N_a grad N_b^T dV
+///            S_ab = int grad N_a grad N_b^T dV; of an anisotropic material
+///            K_ab = int B_a^T C B_b dV
 /// Source     Hughes, The Finite Element Method, sec. 2.7 and 3.10
 [[nodiscard]] MatrixX calc_stiffness(const ElementGradients& gradients,
                                      const ElasticMaterial& material);
@@ -40,7 +42,9 @@ struct ElementGradients {
 /// Equation   K_ab = int (g_a.S g_b) I + lambda p_a p_b^T
 ///                   + mu ((g_a.A g_b) F A F^T + p_b p_a^T) dV,
 ///            g_a = grad N_a, p_a = F A g_a, with the moduli
-///            C_MJNL = lambda A_MJ A_NL + mu (A_MN A_JL + A_ML A_JN)
+///            C_MJNL = lambda A_MJ A_NL + mu (A_MN A_JL + A_ML A_JN); of an
+///            anisotropic material int (g_a.S g_b) I + B_a^T C B_b dV, B_a the
+///            derivative of Green's strain by u_a
 /// Source     [@bonet2008, sec. 9.4]
 /// @param x, u 3 x nodes [m]
 [[nodiscard]] MatrixX calc_element_tangent(const ReferenceElement& element,

@@ -91,6 +91,37 @@ template <class T>
   return stress;
 }
 
+/// Stress of 21 constants C, the upper triangle by rows. Components (xx, yy,
+/// zz, xy, yz, xz), engineering shear strains.
+template <class T, class Constants>
+[[nodiscard]] std::array<T, 6> multiply_constants(
+    const Constants& C, const std::array<T, 6>& gamma) {
+  std::array<T, 6> sigma;
+  sigma.fill(0.0 * gamma[0]);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    sigma[i] += C[k++] * gamma[i];
+    for (std::size_t j = i + 1; j < 6; ++j, ++k) {
+      sigma[i] += C[k] * gamma[j];
+      sigma[j] += C[k] * gamma[i];
+    }
+  }
+  return sigma;
+}
+
+/// St. Venant-Kirchhoff's law with 21 constants: W = gamma . C gamma / 2.
+template <class T>
+[[nodiscard]] Stress<T> calc_st_venant_kirchhoff(const std::array<T, 21>& C,
+                                                 const Tensor<T>& H) {
+  const Tensor<T> E = calc_green_strain(H);
+  const std::array<T, 6> gamma = {E[0][0],       E[1][1],       E[2][2],
+                                  2.0 * E[0][1], 2.0 * E[1][2], 2.0 * E[0][2]};
+  const std::array<T, 6> s = multiply_constants<T>(C, gamma);
+  T W = 0.5 * s[0] * gamma[0];
+  for (std::size_t i = 1; i < 6; ++i) W += 0.5 * s[i] * gamma[i];
+  return {{{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}}, W};
+}
+
 /// The caller checks that det F > 0.
 template <class T>
 [[nodiscard]] Stress<T> calc_neo_hookean(const LameConstants<T>& lame,

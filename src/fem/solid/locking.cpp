@@ -52,7 +52,7 @@ RefinedFunctions calc_functions(const ReferenceElement& element,
   const Eigen::Index n = element.node_count;
   const auto count = n + static_cast<Eigen::Index>(edges.size());
   RefinedFunctions all{MatrixX(count, rule.weights.size()),
-                       {{}, VectorX(rule.weights.size())}};
+                       {{}, VectorX(rule.weights.size()), x * rule.shape}};
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const MatrixX& local = rule.gradients[static_cast<std::size_t>(q)];
     const Matrix3 jacobian = x * local.transpose();

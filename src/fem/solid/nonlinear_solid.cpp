@@ -8,8 +8,10 @@
 #include <numeric>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/material/anisotropy.hpp"
 #include "limber/fem/linalg/parallel.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 namespace {
@@ -32,6 +34,7 @@ NonlinearSolid::NonlinearSolid(const Mesh& mesh,
                                Elasticity law)
     : source_(mesh.source), law_(law), node_count_(mesh.x.cols()) {
   LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
+  require_law(mesh, materials, law);
   for (const ElementBlock& block : mesh.blocks) {
     add_block(mesh, block, materials);
   }
@@ -50,11 +53,19 @@ void NonlinearSolid::add_block(const Mesh& mesh, const ElementBlock& block,
     batch.node.resize(batch.nodes * kLanes);
     batch.gradients.resize(batch.points * batch.nodes * 3);
     batch.measures.assign(batch.points, Lane::Zero());
+    const auto material_of = [&](std::size_t e) -> const ElasticMaterial& {
+      return materials[static_cast<std::size_t>(block.regions[e])];
+    };
+    for (std::size_t e = first; e < first + count; ++e)
+      if (material_of(e).anisotropy) batch.constants.resize(batch.points);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t e = first + std::min(lane, count - 1);
       fill_lane(mesh, block, e, rule, static_cast<int>(lane), batch);
-      const auto lame = find_lame_constants(
-          materials[static_cast<std::size_t>(block.regions[e])]);
+      if (!batch.constants.empty())
+        fill_constants(material_of(e),
+                       element_positions(mesh, block, e) * rule.shape,
+                       static_cast<int>(lane), batch);
+      const auto lame = find_lame_constants(material_of(e));
       batch.lame.lambda[static_cast<int>(lane)] = lame.lambda;
       batch.lame.mu[static_cast<int>(lane)] = lame.mu;
       if (lane < count) {
@@ -87,6 +98,17 @@ void NonlinearSolid::fill_lane(const Mesh& mesh, const ElementBlock& block,
     }
     batch.measures[q][lane] =
         rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant();
+  }
+}
+
+// @param x 3 x points
+void NonlinearSolid::fill_constants(const ElasticMaterial& material,
+                                    const Matrix3X& x, int lane, Batch& batch) {
+  for (std::size_t q = 0; q < batch.points; ++q) {
+    const Constants21 own = list_constants(
+        find_stiffness(material, Vector3(x.col(static_cast<Eigen::Index>(q)))));
+    for (std::size_t k = 0; k < own.size(); ++k)
+      batch.constants[q][k][lane] = own[k];
   }
 }
 
@@ -178,7 +200,10 @@ double NonlinearSolid::calc_batch(const Batch& batch,
     for (std::size_t i = 0; i < 3; ++i) F[i][i] += 1.0;
     const Lane J = determinant(F);
     if (!(J.minCoeff() > 0.0)) refuse(batch, J);
-    const Stress<Lane> stress = calc_stress(law_, batch.lame, H);
+    const Stress<Lane> stress =
+        batch.constants.empty()
+            ? calc_stress(law_, batch.lame, H)
+            : calc_st_venant_kirchhoff<Lane>(batch.constants[q], H);
     energy += batch.measures[q] * stress.W;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {

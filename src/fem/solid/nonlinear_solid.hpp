@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ class NonlinearSolid {
   };
 
   /// @param materials one per region of the mesh
+  /// @throws InputError by require_law().
   NonlinearSolid(const Mesh& mesh,
                  const std::vector<ElasticMaterial>& materials, Elasticity law);
 
@@ -53,6 +55,8 @@ class NonlinearSolid {
     std::vector<Lane> gradients;    // points x nodes x 3
     std::vector<Lane> measures;     // points [m^3]
     LameConstants<Lane> lame;
+    // Of a batch with an anisotropic element: 21 of each point, in mesh axes.
+    std::vector<std::array<Lane, 21>> constants;
     std::size_t place = 0;  // index of its forces in the workspace
   };
 
@@ -61,6 +65,8 @@ class NonlinearSolid {
   static void fill_lane(const Mesh& mesh, const ElementBlock& block,
                         std::size_t e, const Quadrature& rule, int lane,
                         Batch& batch);
+  static void fill_constants(const ElasticMaterial& material, const Matrix3X& x,
+                             int lane, Batch& batch);
   void link_nodes();
   double calc_batch(const Batch& batch, const Eigen::Ref<const Matrix3X>& u,
                     double* forces) const;

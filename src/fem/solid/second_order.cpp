@@ -5,8 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/element_matrices.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 namespace {
@@ -24,7 +26,7 @@ void for_each_element(const Mesh& mesh, const Visit& visit) {
   }
 }
 
-// The same with the constants of its material: visit(lame, nodes, gradients).
+// The same with the law at its points: visit(laws, nodes, gradients).
 template <typename Visit>
 void for_each_element(const Mesh& mesh,
                       const std::vector<ElasticMaterial>& materials,
@@ -33,8 +35,8 @@ void for_each_element(const Mesh& mesh,
   for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
                              const std::vector<int>& nodes,
                              const ElementGradients& gradients) {
-    visit(find_lame_constants(
-              materials[static_cast<std::size_t>(block.regions[e])]),
+    visit(list_laws(materials[static_cast<std::size_t>(block.regions[e])],
+                    gradients.x),
           nodes, gradients);
   });
 }
@@ -60,18 +62,6 @@ MatrixX gather(const MatrixX& Phi, const std::vector<int>& nodes) {
   return own;
 }
 
-// Constants of a law.
-struct Solid {
-  LameConstants<double> lame;
-  Elasticity law;
-};
-
-Matrix3 calc_second_stress(const LameConstants<double>& lame,
-                           const Matrix3& strain) {
-  return lame.lambda * strain.trace() * Matrix3::Identity() +
-         2.0 * lame.mu * strain;
-}
-
 Matrix3 symmetric_part(const Matrix3& H) { return 0.5 * (H + H.transpose()); }
 
 // One quadrature point's gradients and stresses of all fields.
@@ -81,12 +71,12 @@ struct Point {
   std::vector<double> norms;  // |H|
 };
 
-void fill(const MatrixX& own, const Matrix3X& gradients,
-          const LameConstants<double>& lame, Point& point) {
+void fill(const MatrixX& own, const Matrix3X& gradients, const Hooke& hooke,
+          Point& point) {
   const MatrixX H = own * gradients.transpose();  // 3k x 3
   for (std::size_t k = 0; k < point.H.size(); ++k) {
     point.H[k] = H.middleRows<3>(3 * static_cast<Eigen::Index>(k));
-    point.S[k] = calc_second_stress(lame, symmetric_part(point.H[k]));
+    point.S[k] = hooke.calc_stress(symmetric_part(point.H[k]));
     point.norms[k] = point.H[k].norm();
   }
 }
@@ -136,8 +126,9 @@ class PointTensors {
 };
 
 // Sets point q's tensors and its stresses T of g, 3 pairs x 3.
-void set_point(const Point& point, const Solid& solid, double measure,
-               Eigen::Index q, PointTensors& tensors, MatrixX& T) {
+void set_point(const Point& point, const Hooke& hooke, Elasticity law,
+               double measure, Eigen::Index q, PointTensors& tensors,
+               MatrixX& T) {
   const std::size_t p = point.H.size();
   Eigen::Index pair = 0;
   for (std::size_t i = 0; i < p; ++i) {
@@ -146,13 +137,32 @@ void set_point(const Point& point, const Solid& solid, double measure,
     for (std::size_t j = i; j < p; ++j, ++pair) {
       const Matrix3 E = symmetric_part(point.H[i].transpose() * point.H[j]);
       const Matrix3 A =
-          calc_stress_curvature(solid.law, solid.lame, point.H[i], point.H[j]);
+          calc_stress_curvature(law, hooke.lame, point.H[i], point.H[j]);
       T.middleRows<3>(3 * pair) =
-          measure * (calc_second_stress(solid.lame, E) +
-                     point.H[i] * point.S[j] + point.H[j] * point.S[i] + A);
+          measure * (hooke.calc_stress(E) + point.H[i] * point.S[j] +
+                     point.H[j] * point.S[i] + A);
       tensors.set_pair(q, pair, E, A, point.norms[i] * point.norms[j]);
     }
   }
+}
+
+constexpr Eigen::Index kTerms = 7;  // six components and the trace
+
+// Factors of the squares of a point's terms in 2 (energy). Of an anisotropic
+// law, C = L L', the strains become L' gamma.
+void weigh_terms(const Hooke& hooke, double measure,
+                 Eigen::Ref<MatrixX> strains, Eigen::Ref<VectorX> weights) {
+  if (!hooke.C) {
+    weights << 2.0 * hooke.lame.mu * measure * kContraction,
+        hooke.lame.lambda * measure;
+    return;
+  }
+  const MatrixX L = dense::find_cholesky(MatrixX(*hooke.C)).value();
+  const Vector6 to_engineering{{1.0, 1.0, 1.0, 2.0, 2.0, 2.0}};
+  strains.leftCols<6>() =
+      (strains.leftCols<6>() * to_engineering.asDiagonal() * L).eval();
+  strains.col(6).setZero();
+  weights.setConstant(measure);
 }
 
 // Calls visit(strains, weights) of every element: the strains of pairs at its
@@ -163,14 +173,13 @@ void for_each_strain(const Mesh& mesh,
                      const std::vector<ElasticMaterial>& materials,
                      const MatrixX& Phi, const MatrixX& Theta,
                      const std::vector<int>& of, const Visit& visit) {
-  constexpr Eigen::Index kTerms = 7;
   const std::vector<std::pair<int, int>> pairs = list_pairs(Phi.cols());
   const MatrixX theta = Theta(Eigen::all, of);
   MatrixX strains;
   VectorX weights;
   for_each_element(
       mesh, materials,
-      [&](const LameConstants<double>& lame, const std::vector<int>& nodes,
+      [&](const std::vector<Hooke>& laws, const std::vector<int>& nodes,
           const ElementGradients& gradients) {
         const MatrixX own = gather(Phi, nodes);
         const MatrixX second = gather(theta, nodes);
@@ -191,9 +200,9 @@ void for_each_strain(const Mesh& mesh,
                 << to_components(E).transpose(),
                 E.trace();
           }
-          const double twice = 2.0 * lame.mu * gradients.measure[q];
-          weights.segment<kTerms>(kTerms * q) << twice * kContraction,
-              lame.lambda * gradients.measure[q];
+          weigh_terms(laws[static_cast<std::size_t>(q)], gradients.measure[q],
+                      strains.middleCols<kTerms>(kTerms * q),
+                      weights.segment<kTerms>(kTerms * q));
         }
         visit(strains, weights);
       });
@@ -243,15 +252,16 @@ SecondOrderTerms calc_second_order(
   MatrixX forces;  // 3 pairs x nodes of an element
   for_each_element(
       mesh, materials,
-      [&](const LameConstants<double>& lame, const std::vector<int>& nodes,
+      [&](const std::vector<Hooke>& laws, const std::vector<int>& nodes,
           const ElementGradients& gradients) {
         const MatrixX own = gather(Phi, nodes);
         forces.setZero(3 * pairs, own.cols());
         PointTensors tensors(gradients.measure.size(), p, pairs);
         for (Eigen::Index q = 0; q < gradients.measure.size(); ++q) {
           const Matrix3X& at = gradients.at[static_cast<std::size_t>(q)];
-          fill(own, at, lame, point);
-          set_point(point, {lame, law}, gradients.measure[q], q, tensors, T);
+          const Hooke& hooke = laws[static_cast<std::size_t>(q)];
+          fill(own, at, hooke, point);
+          set_point(point, hooke, law, gradients.measure[q], q, tensors, T);
           forces.noalias() += T * at;
         }
         tensors.add_integrals(law, terms);

@@ -19,7 +19,7 @@ namespace limber::fem {
 /// Source     the internal force int F S(E) grad N of a hyperelastic solid, E =
 ///            sym H + H' H / 2, differentiated twice at u = 0; int A_ij : sym
 ///            H_r is symmetric in i, j and r
-/// Limits     isotropic
+/// Limits     A_ij: isotropic materials only
 struct SecondOrderTerms {
   MatrixX loads;   ///< 3N x p (p + 1) / 2: g [N for fields in m]
   MatrixX strain;  ///< p x p (p + 1) / 2: c, row r [J for fields in m]

@@ -11,7 +11,7 @@
 #include "limber/common/index.hpp"
 #include "limber/fem/linalg/parallel.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
-#include "limber/fem/solid/hyperelastic.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 namespace {
@@ -71,6 +71,15 @@ Tensor3<C> calc_lane_stress(const Tensor3<C>& H, double lambda, double mu) {
   return sigma;
 }
 
+template <int C>
+Tensor3<C> calc_lane_stress(const Tensor3<C>& H, const Constants21& constants) {
+  const std::array<Columns<C>, 6> gamma = {
+      H[0][0],           H[1][1],           H[2][2],
+      H[0][1] + H[1][0], H[1][2] + H[2][1], H[0][2] + H[2][0]};
+  const auto s = multiply_constants<Columns<C>>(constants, gamma);
+  return {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+}
+
 }  // namespace
 
 StiffnessProduct::StiffnessProduct(
@@ -99,7 +108,12 @@ void StiffnessProduct::add_element(const ElementBlock& block, std::size_t e,
       is_parallel_sided(type, x) ? type.stiffness : type.curved;
   const auto [lambda, mu] = find_lame_constants(material);
   to.list.push_back({&rule, block.element_nodes(e), to.points.size(),
-                     type.node_count, lambda, mu});
+                     type.node_count, lambda, mu,
+                     material.anisotropy.has_value(), to.constants.size()});
+  if (material.anisotropy) {
+    for (const Hooke& hooke : list_laws(material, x * rule.shape))
+      to.constants.push_back(list_constants(*hooke.C));
+  }
   const Matrix3X edges = x.colwise() - Vector3(x.col(0));
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Matrix3 J =
@@ -207,9 +221,12 @@ void StiffnessProduct::add_forces(const Element& element,
     const Tensor3<C> H =
         multiply<C>(find_local_gradient<C>(gradients, d), inverse);
     // w sigma J^-T maps the local gradient of a shape function to its force.
-    const Tensor3<C> stress =
-        multiply<C>(calc_lane_stress<C>(H, element.lambda, element.mu),
-                    point.measure * inverse.transpose());
+    const Tensor3<C> stress = multiply<C>(
+        element.is_anisotropic
+            ? calc_lane_stress<C>(
+                  H, elements_->constants[element.first_constants + q])
+            : calc_lane_stress<C>(H, element.lambda, element.mu),
+        point.measure * inverse.transpose());
     for (std::size_t a = 1; a < nodes; ++a) {
       const auto column = static_cast<Eigen::Index>(a);
       for (std::size_t i = 0; i < 3; ++i) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "limber/common/material/anisotropy.hpp"
 #include "limber/common/types.hpp"
 #include "limber/fem/mesh/mesh.hpp"
 #include "limber/fem/solid/material.hpp"
@@ -62,12 +64,15 @@ class StiffnessProduct {
     std::size_t first_point;
     int node_count;
     double lambda, mu;  ///< Lame's constants [Pa]
+    bool is_anisotropic;
+    std::size_t first_constants;  ///< of its first point in `constants`
   };
   struct Elements {
     Matrix3X x;  ///< node positions [m]
     std::vector<ElementBlock> blocks;
     std::vector<Element> list;
     std::vector<Point> points;
+    std::vector<Constants21> constants;  ///< in mesh axes [Pa]
   };
 
   static void add_element(const ElementBlock& block, std::size_t e,

@@ -7,10 +7,12 @@
 #include <cstddef>
 #include <utility>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/dense/qr.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/solid/element_matrices.hpp"
+#include "limber/fem/solid/hooke.hpp"
 
 namespace limber::fem {
 namespace {
@@ -67,12 +69,15 @@ struct Fits {
 struct ElementStress {
   MatrixX at;       // 6 x points of each field
   VectorX measure;  // a point [m^3]
+  Matrix3X x;       // a point [m]
   bool is_straight = false;
 };
 
 // Hooke's law for the strain sym(h).
-Vector6 calc_linear_stress(const LameConstants<double>& lame,
-                           const Matrix3& h) {
+Vector6 calc_linear_stress(const Hooke& hooke, const Matrix3& h) {
+  if (hooke.C)
+    return to_components(hooke.calc_stress(0.5 * (h + h.transpose())));
+  const LameConstants<double>& lame = hooke.lame;
   const double volumetric = lame.lambda * h.trace();
   Vector6 stress;
   stress << volumetric + 2.0 * lame.mu * h(0, 0),
@@ -116,23 +121,41 @@ ElementStress calc_element_stress(const ReferenceElement& element,
                                   const Matrix3X& x, const MatrixX& own,
                                   Eigen::Index fields,
                                   const PairedFields& second,
-                                  const LameConstants<double>& lame) {
+                                  const ElasticMaterial& material) {
   const ElementGradients gradients = calc_gradients(element, x);
+  const std::vector<Hooke> laws = list_laws(material, gradients.x);
   const Eigen::Index all = own.rows() / 3;
   ElementStress stress{MatrixX(6 * all, gradients.measure.size()),
-                       gradients.measure, is_parallel_sided(element, x)};
+                       gradients.measure, gradients.x,
+                       is_parallel_sided(element, x)};
   for (Eigen::Index q = 0; q < stress.at.cols(); ++q) {
+    const Hooke& hooke = laws[static_cast<std::size_t>(q)];
     MatrixX H = own * gradients.at[static_cast<std::size_t>(q)].transpose();
     add_products(second.paired, fields, H);
     for (Eigen::Index k = 0; k < all; ++k) {
       stress.at.col(q).segment<6>(6 * k) =
-          calc_linear_stress(lame, H.middleRows<3>(3 * k));
+          calc_linear_stress(hooke, H.middleRows<3>(3 * k));
     }
     if (second.law != Elasticity::st_venant_kirchhoff) {
-      add_curvature(second, lame, H, fields, stress.at.col(q));
+      add_curvature(second, hooke.lame, H, fields, stress.at.col(q));
     }
   }
   return stress;
+}
+
+// Adds int d C^-1 d dV of a material with 21 constants.
+void add_anisotropic_energy(const MatrixX& difference, const VectorX& measure,
+                            const Matrix3X& x, const ElasticMaterial& material,
+                            MatrixX& sum) {
+  const std::vector<Hooke> laws = list_laws(material, x);
+  const bool varies = material.anisotropy->axes.is_cylindrical;
+  MatrixX compliance;
+  for (Eigen::Index q = 0; q < difference.cols(); ++q) {
+    if (varies || q == 0)
+      compliance = dense::find_inverse(*laws[static_cast<std::size_t>(q)].C);
+    const auto d = difference.col(q).reshaped(6, sum.rows());
+    sum.noalias() += measure[q] * (d.transpose() * compliance * d);
+  }
 }
 
 // Adds int d C^-1 d dV. Weights of the rule may be negative.
@@ -244,9 +267,9 @@ class Recovery {
     MatrixX own(3 * (Phi_.cols() + second.Theta.cols()), std::ssize(nodes));
     take_nodes(Phi_, nodes, 0, own);
     take_nodes(second.Theta, nodes, Phi_.cols(), own);
-    return calc_element_stress(
-        *mesh_.blocks[b].element, mesh_.x(Eigen::all, nodes), own, Phi_.cols(),
-        second, find_lame_constants(materials_[region_of(b, e)]));
+    return calc_element_stress(*mesh_.blocks[b].element,
+                               mesh_.x(Eigen::all, nodes), own, Phi_.cols(),
+                               second, materials_[region_of(b, e)]);
   }
 
   void average() {
@@ -280,8 +303,13 @@ class Recovery {
       own.at -=
           result_.stress.topRows(own.at.rows())(Eigen::all, points_of(b, e)) *
           rule.shape;
-      add_energy(own.at, own.measure, materials_[region_of(b, e)],
-                 result_.averaging);
+      const ElasticMaterial& material = materials_[region_of(b, e)];
+      if (material.anisotropy) {
+        add_anisotropic_energy(own.at, own.measure, own.x, material,
+                               result_.averaging);
+      } else {
+        add_energy(own.at, own.measure, material, result_.averaging);
+      }
     });
     result_.averaging =
         (0.5 * (result_.averaging + result_.averaging.transpose())).eval();
@@ -318,8 +346,7 @@ IndexedMaterials index_materials(
   for (const ElasticMaterial& material : materials) {
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const auto& other) {
-          return other.youngs_modulus == material.youngs_modulus &&
-                 other.poisson_ratio == material.poisson_ratio;
+          return have_same_elasticity(other, material);
         });
     indexed.of_region.push_back(static_cast<int>(found - known.begin()));
     if (found == known.end()) known.push_back(material);

@@ -7,7 +7,7 @@
 #include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
 
-/// Nodal stress of displacement fields, linear isotropic elasticity.
+/// Nodal stress of displacement fields, linear elasticity.
 namespace limber::fem {
 
 /// Values at an element's nodes from those at quadrature points: nodes x points
@@ -22,7 +22,7 @@ namespace limber::fem {
 [[nodiscard]] MatrixX make_stress_fit(const ReferenceElement& element,
                                       const Quadrature& rule);
 
-/// Materials that differ in stress: those with equal E and nu are merged.
+/// Materials that differ in stress: those of the same elasticity are merged.
 struct IndexedMaterials {
   std::vector<ElasticMaterial> constants;
   std::vector<int> of_region;  ///< index into `constants`
@@ -49,13 +49,14 @@ struct NodalStress {
   /// k x k: int (s* - s) C^-1 (s* - s) dV, s* interpolated from the nodes, s
   /// the element's own [J per unit of the fields].
   MatrixX averaging;
-  std::vector<ElasticMaterial> constants;  ///< of distinct E and nu
+  std::vector<ElasticMaterial> constants;  ///< of distinct elasticity
 };
 
 /// Stress at nodes: Hooke's law at the quadrature points of the stiffness,
 /// fitted over each element, mean of the elements of one material at a node.
 ///
-/// Equation   sigma = lambda tr(e) I + 2 mu e, e = sym(grad u); of a pair
+/// Equation   sigma = lambda tr(e) I + 2 mu e, or C e with C at the point, e =
+///            sym(grad u); of a pair
 ///            e = sym(grad theta_ij) + sym(grad phi_i' grad phi_j): Green's
 ///            strain of Phi q + 1/2 Theta q q to second order, and
 ///            calc_stress_curvature() of phi_i and phi_j, so that sigma is the

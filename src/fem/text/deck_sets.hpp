@@ -38,6 +38,11 @@ class DeckSets {
     if (!name.empty()) sets_[name].push_back(number);
   }
 
+  void merge(const DeckSets& others) {
+    for (const auto& [name, numbers] : others.sets_)
+      sets_[name].insert(sets_[name].end(), numbers.begin(), numbers.end());
+  }
+
   [[nodiscard]] const std::map<std::string, std::vector<long>>& all() const {
     return sets_;
   }

@@ -59,6 +59,13 @@ void add_request(const Recipe& recipe, Digest& digest) {
     digest.add(region.material.youngs_modulus);
     digest.add(region.material.poisson_ratio);
     digest.add(region.material.density);
+    if (!region.material.anisotropy) continue;
+    const Anisotropy& anisotropy = *region.material.anisotropy;
+    digest.add(std::string("anisotropy"));
+    digest.add(MatrixX(anisotropy.C));
+    digest.add(anisotropy.axes.is_cylindrical);
+    digest.add(MatrixX(anisotropy.axes.directions));
+    digest.add(anisotropy.axes.point);
   }
   digest.add(recipe.clamped_groups.size());
   for (const std::string& group : recipe.clamped_groups) digest.add(group);

@@ -58,7 +58,8 @@ struct CachedBody {
   ReducedBody body;
   bool was_cached = false;
   std::vector<std::string> notices;  ///< of its mesh
-  std::vector<std::string> found;    ///< of matrices: a line for each file
+  std::vector<std::string>
+      found;  ///< a line for each file of matrices, or material of a deck
 };
 
 /// Loads the body from the folder `cache`, by default default_cache_folder(),

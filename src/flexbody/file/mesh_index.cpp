@@ -51,6 +51,8 @@ void add_source_options(const MeshSource& source, Digest& digest) {
   digest.add(source.order);
   digest.add(source.unit);
   digest.add(source.matrices.mass);
+  if (source.force != 0.0) digest.add(source.force);
+  for (const std::string& card : source.ignored) digest.add(card);
   for (const auto* paths : {&source.matrices.paths, &source.matrices.recovery})
     for (const std::filesystem::path& path : *paths)
       digest.add(std::filesystem::absolute(path).string());

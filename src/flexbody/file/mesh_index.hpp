@@ -21,9 +21,10 @@ struct MeshRecord {
   std::string content;  ///< digest of its nodes, elements and groups
   /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
-  std::vector<std::string> found;  ///< of matrices: a line for each file
-  std::vector<FileStamp> files;    ///< opened or searched for in the making
-  bool is_repeatable = false;      ///< whether it depends on these only
+  std::vector<std::string>
+      found;  ///< a line for each file of matrices, or material of a deck
+  std::vector<FileStamp> files;  ///< opened or searched for in the making
+  bool is_repeatable = false;    ///< whether it depends on these only
 };
 
 /// Adds all that a source states besides its file.

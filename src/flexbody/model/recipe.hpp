@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limber/common/material/solid_material.hpp"
 #include "limber/common/types.hpp"
 #include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/node_selection.hpp"
@@ -18,12 +19,7 @@
 /// here.
 namespace limber::flexbody {
 
-/// Isotropic linear elastic material.
-struct Material {
-  double youngs_modulus = 0.0;  ///< E > 0 [Pa]
-  double poisson_ratio = 0.0;   ///< -1 < nu < 0.5 [-]
-  double density = 0.0;         ///< rho > 0 [kg/m^3]
-};
+using Material = SolidMaterial;
 
 /// A material on one physical volume group; an empty group name means every
 /// element that no other region covers.
@@ -52,6 +48,8 @@ struct MeshSource {
   /// the recipe has no material. Forces are in N, times in s, masses so in
   /// N s^2 per `unit`.
   MatrixSource matrices = {};
+  double force = 0.0;  ///< newtons per unit of force of a deck; 0: not stated
+  std::vector<std::string> ignored = {};  ///< cards of a deck left out
 
   [[nodiscard]] bool is_matrices() const { return !matrices.paths.empty(); }
 };

@@ -31,7 +31,9 @@ struct StressModes {
   /// share of lambda is the square of the averaging's error in the energy norm
   /// [@zienkiewicz1987] [rad^2/s^2].
   MatrixX averaging;
-  MatrixX constants;  ///< 2 x materials: Young's modulus [Pa], Poisson's ratio
+  /// 2 x materials: Young's modulus [Pa], Poisson's ratio; of anisotropic ones
+  /// those of the mean over all directions.
+  MatrixX constants;
   /// Rows of the nodes of each interface, in the body's order of interfaces.
   std::vector<std::vector<std::size_t>> interface_rows;
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "limber/common/index.hpp"
+#include "limber/common/material/half_space.hpp"
 #include "limber/common/overloaded.hpp"
 #include "limber/contact/law/materials.hpp"
 
@@ -62,13 +63,28 @@ Striker find_striker(const Scene& scene, const std::vector<LinkMotion>& motions,
           .radius = find_radius(obstacle.geometry)};
 }
 
+// Of an anisotropic material, that of the stiffest surface across its axes.
+contact::SurfaceMaterial find_surface(const flexbody::Material& material) {
+  contact::SurfaceMaterial surface{material.youngs_modulus,
+                                   material.poisson_ratio};
+  if (!material.anisotropy) return surface;
+  surface.youngs_modulus = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const SolidMaterial own = find_isotropic_surface(
+        find_surface_compliance(material.anisotropy->C, Vector3::Unit(axis)));
+    if (own.youngs_modulus > surface.youngs_modulus)
+      surface = {own.youngs_modulus, own.poisson_ratio};
+  }
+  return surface;
+}
+
 // The stiffest of the link's materials, with the shortest impacts.
 Material find_own_material(const FlexibleLink& flexible) {
   Material own;
   for (const flexbody::MaterialRegion& region : flexible.materials) {
-    const auto& material = region.material;
+    const contact::SurfaceMaterial material = find_surface(region.material);
     if (own && own->youngs_modulus >= material.youngs_modulus) continue;
-    own = {material.youngs_modulus, material.poisson_ratio};
+    own = material;
   }
   return own;
 }

@@ -11,6 +11,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/length_unit.hpp"
+#include "limber/common/material/stated_material.hpp"
 #include "limber/common/names.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/place_reader.hpp"
@@ -19,6 +20,7 @@ namespace limber::scene {
 namespace {
 
 using flexbody::InterfaceRequest;
+using Numbers = std::vector<double>;
 
 void read_unit(XmlElement& element, double& unit) {
   const std::optional<std::string> text = element.text("unit");
@@ -37,6 +39,16 @@ void read_mesh(XmlElement& element, const std::filesystem::path& folder,
   mesh.size = element.number("size", kNonNegative).value_or(0.0);
   mesh.order = element.integer("order", 1, 3).value_or(0);
   read_unit(element, mesh.unit);
+  if (const auto text = element.text("force_unit")) {
+    const std::optional<double> newtons = parse_force_unit(*text);
+    if (!newtons)
+      element.fail(fmt::format("has force_unit=\"{}\"; expected {}",
+                               echo(*text), kForceUnits));
+    mesh.force = newtons.value_or(0.0);
+  }
+  std::istringstream cards(element.text("ignore").value_or(""));
+  for (std::string card; std::getline(cards, card, ',');)
+    mesh.ignored.push_back(card);
 }
 
 /// <matrices path="..." mass="..."/>: a folder, or files.
@@ -72,6 +84,27 @@ std::vector<flexbody::MaterialRegion> read_material_file(
   }
 }
 
+/// Three of each constant, or 21, and axes.
+void read_anisotropic(XmlElement& element, flexbody::Material& material) {
+  StatedMaterial stated;
+  stated.youngs_modulus =
+      element.numbers("youngs_modulus", kPositive).value_or(Numbers());
+  stated.poisson_ratio = element.numbers("poisson_ratio").value_or(Numbers());
+  stated.shear_modulus =
+      element.numbers("shear_modulus", kPositive).value_or(Numbers());
+  stated.stiffness = element.numbers("stiffness").value_or(Numbers());
+  stated.density = element.required_number("density", kPositive);
+  stated.axis_1 = element.vector("axis_1");
+  stated.axis_2 = element.vector("axis_2");
+  stated.cylinder_axis = element.vector("cylinder_axis");
+  stated.cylinder_point = element.vector("cylinder_point");
+  try {
+    material = make_material(stated);
+  } catch (const InputError& error) {
+    for (const std::string& problem : error.problems()) element.fail(problem);
+  }
+}
+
 std::vector<flexbody::MaterialRegion> read_material(
     XmlElement& element, const std::filesystem::path& folder) {
   if (const auto file = element.text("file")) {
@@ -79,6 +112,11 @@ std::vector<flexbody::MaterialRegion> read_material(
   }
   flexbody::MaterialRegion region;
   region.group = element.text("group").value_or("");
+  if (element.has("shear_modulus") || element.has("stiffness") ||
+      element.has("axis_1") || element.has("cylinder_axis")) {
+    read_anisotropic(element, region.material);
+    return {region};
+  }
   region.material.youngs_modulus =
       element.required_number("youngs_modulus", kPositive);
   region.material.poisson_ratio =
@@ -229,7 +267,6 @@ void check_whole(const XmlElement& element, const FlexibleLink& link,
     element.fail(
         "has a <material>, which goes with <mesh>; matrices have their own");
   }
-  // Decks of beams and shells have their own.
   if (count("mesh") && link.materials.empty() &&
       !has_deck_name(link.mesh.file)) {
     element.fail(

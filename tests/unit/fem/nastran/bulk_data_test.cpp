@@ -262,14 +262,65 @@ TEST(BulkData, ShellsAreMarksOfTheSurfaceInADeckWithoutAnyProperties) {
               HasSubstr("CONM2 is not"));
 }
 
-TEST(BulkData, SeveralMaterialsAreReported) {
-  const std::string elements = kTetra +
-                               "GRID,5,,1.,1.,1.\n"
-                               "CTETRA,2,7,2,3,4,5\n";
-  EXPECT_THAT(read_cards(elements + "PSOLID,1,1\nPSOLID,7,1\n").notices,
-              IsEmpty());
-  EXPECT_THAT(read_cards(elements + "PSOLID,1,1\nPSOLID,7,2\n").notices,
-              ElementsAre(HasSubstr("groups 1, 7")));
+TEST(BulkData, HasTheMaterialsOfItsProperties) {
+  const SolidDeck data = read_cards(
+      kTetra +
+      "GRID,5,,1.,1.,1.\nCTETRA,2,7,2,3,4,5\nPSOLID,1,1\nPSOLID,7,2,3\n"
+      "MAT1,1,2.1+11,,.3,7850.\n"
+      "MAT9,2,4.,1.,1.,,,,3.,\n,1.,,,,3.,,,,\n,1.,,,1.5,,2.,10.\n"
+      "CORD2C,3,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nPARAM,WTMASS,.5\n");
+  ASSERT_EQ(data.materials.size(), 2U);
+  EXPECT_EQ(data.materials[0].name, "MAT1 1");
+  EXPECT_EQ(data.materials[0].material.youngs_modulus, 2.1e11);
+  EXPECT_EQ(data.materials[0].material.poisson_ratio, 0.3);
+  EXPECT_EQ(data.materials[0].material.density, 3925.0);
+  const SolidMaterial& other = data.materials[1].material;
+  EXPECT_EQ(data.materials[1].problem, "");
+  ASSERT_TRUE(other.anisotropy);
+  EXPECT_EQ(other.anisotropy->C.diagonal(),
+            (Vector6{{4.0, 3.0, 3.0, 1.0, 1.5, 2.0}}));
+  EXPECT_EQ(other.density, 5.0);
+  EXPECT_TRUE(other.anisotropy->axes.is_cylindrical);
+  EXPECT_EQ(other.anisotropy->axes.point, Vector3::UnitX());
+}
+
+TEST(BulkData, FindsTheThirdOfEGAndNu) {
+  const auto find = [](const std::string& card) {
+    return read_cards(kTetra + "PSOLID,1,1\n" + card).materials.at(0);
+  };
+  EXPECT_NEAR(find("MAT1,1,,80.,.25,1.\n").material.youngs_modulus, 200.0,
+              1e-12);
+  EXPECT_NEAR(find("MAT1,1,200.,80.,,1.\n").material.poisson_ratio, 0.25,
+              1e-15);
+  EXPECT_THAT(find("MAT1,1,200.,,,1.\n").problem,
+              HasSubstr("two of E, G and NU"));
+  EXPECT_THAT(find("MAT1,1,200.,,.3\n").problem, HasSubstr("no density RHO"));
+  EXPECT_THAT(find("MATT1,1,2\nMAT1,1,200.,,.3,1.\n").problem,
+              HasSubstr("temperature"));
+  EXPECT_THAT(find("MAT9,1,-1.\n").problem, HasSubstr("C11 is -1 Pa"));
+  EXPECT_THAT(
+      find("MAT10,1,1.\n").problem,
+      AllOf(HasSubstr("no MAT1, MAT9 or MAT11"), HasSubstr("deck.bdf")));
+  EXPECT_EQ(read_cards(kTetra).materials.at(0).name, "");
+}
+
+TEST(BulkData, WrongMaterialCardsAreErrorsWithTheirLine) {
+  const std::string start = kTetra + "PSOLID,1,1\n";
+  EXPECT_THAT(find_error(deck(start + "MAT1,1,x,,.3,1.\n")),
+              HasSubstr("deck.bdf:"));
+  EXPECT_THAT(find_error(deck(start + "MAT1,1,1.,,.3\nMAT9,1,1.\n")),
+              HasSubstr("material 1 is there twice"));
+  EXPECT_THAT(find_error(deck(start + "PSOLID,1,2\n")),
+              HasSubstr("PSOLID 1 is there twice"));
+}
+
+TEST(BulkData, LeavesOutTheCardsThatItIsAskedTo) {
+  const std::string text = deck(kTetra + "PSOLID,1,1\nCONM2,9,1,,5.\n");
+  EXPECT_THAT(find_error(text), HasSubstr("ignore CONM2 to go on without"));
+  EXPECT_THAT(
+      read_bulk_data(write_file("deck.bdf", text), {"conm2"}).notices,
+      ElementsAre(HasSubstr("left out as you ask, so that the body lacks them: "
+                            "1 CONM2")));
 }
 
 }  // namespace
