@@ -204,7 +204,9 @@ class ContentReader {
 
   void add_data(const TextScanner& at, std::string_view given) {
     const std::string& name = keyword_.name;
-    const bool is_set = name == "NSET" || name == "ELSET" || name == "SURFACE";
+    const bool is_set = name == "NSET" || name == "ELSET" ||
+                        name == "SURFACE" || name == "BOUNDARY" ||
+                        name == "MASS";
     const std::string stripped = is_set ? strip_instance(given) : std::string();
     const std::string_view line = is_set ? stripped : given;
     if (name == "NODE") {
@@ -217,7 +219,8 @@ class ContentReader {
       deck_.element_sets.add_line(at, keyword_, keyword_.get("ELSET"), line);
     } else if (name == "SURFACE") {
       add_surface(at, line);
-    } else if (deck_.materials.add_data(at, keyword_, line)) {
+    } else if (deck_.materials.add_data(at, keyword_, line) ||
+               deck_.attachments.add_data(at, keyword_, line)) {
       return;
     } else if (name == "INSTANCE") {
       add_move(at, line);
@@ -327,6 +330,7 @@ void DeckContent::take(DeckContent part, const Pose& pose) {
   nodes_of.insert(nodes_of.end(), part.nodes_of.begin(), part.nodes_of.end());
   surfaces.merge(part.surfaces);
   materials.take(std::move(part.materials), pose);
+  attachments.take(std::move(part.attachments));
   spelling.merge(part.spelling);
   constraints.merge(part.constraints);
   unused.merge(part.unused);

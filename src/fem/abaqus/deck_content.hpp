@@ -10,6 +10,7 @@
 
 #include "limber/common/pose.hpp"
 #include "limber/common/types.hpp"
+#include "limber/fem/abaqus/deck_attachments.hpp"
 #include "limber/fem/abaqus/deck_materials.hpp"
 #include "limber/fem/abaqus/solid_type.hpp"
 #include "limber/fem/mesh/solid_deck.hpp"
@@ -51,6 +52,7 @@ struct DeckContent {
   std::vector<Keyword> nodes_of;  ///< *NSET with ELSET
   std::map<std::string, std::vector<DeckSurfacePart>> surfaces;
   DeckMaterials materials;
+  DeckAttachments attachments;
   /// Names of sets and surfaces, which are in upper case, as first written.
   std::map<std::string, std::string> spelling;
   DeckCounts constraints;  ///< and contact

@@ -45,6 +45,9 @@ std::optional<std::pair<int, int>> find_mark(std::string_view type) {
   }
 }
 
+/// As a set of the file would be; DeckContent::spell() has it in lower case.
+constexpr const char* kHeldNodes = "boundary";
+
 bool is_edge(std::string_view type) {
   return type.starts_with("T3D") || type.starts_with("B3") ||
          type.starts_with("T2D");
@@ -66,6 +69,7 @@ class SolidDeckReader {
     refuse_others();
     set_nodes();
     set_solids();
+    set_masses();
     set_groups();
     report();
     return std::move(deck_);
@@ -82,11 +86,16 @@ class SolidDeckReader {
 
   void refuse_others() {
     const std::set<long> described = find_described();
+    for (const DeckMass& point : content_.attachments.masses())
+      for (const long number : content_.find_elements(point.elset))
+        weighed_.insert(number);
     for (const DeckElement& element : content_.elements) {
       if (element.solid != nullptr) continue;
       const auto number = static_cast<long>(element.number);
       const bool is_described = described.contains(number);
       if (find_mark(element.type) && !is_described) continue;
+      if (is_point_mass(number) && !ignored_.contains("elements MASS"))
+        continue;
       DeckCounts& counts =
           is_edge(element.type) && !is_described ? edges_ : refused_;
       DeckCount& entry = counts[fmt::format("elements {}", element.type)];
@@ -99,8 +108,9 @@ class SolidDeckReader {
     std::vector<std::string> problems;
     for (const auto& [what, entry] : refused_)
       problems.push_back(fmt::format(
-          "{}: {}{} would be lost. Expected solid elements only (C3D4, C3D10, "
-          "C3D8, C3D20, C3D6, C3D15, C3D5): leave it out and model it in the "
+          "{}: {}{} would be lost. Expected solid elements (C3D4, C3D10, "
+          "C3D8, C3D20, C3D6, C3D15, C3D5) and *MASS only; beams and shells "
+          "beside solids are not supported: leave it out and model it in the "
           "scene by links and joints, bring the body by its matrices, or "
           "ignore {} to go on without.",
           entry.first, what,
@@ -166,6 +176,28 @@ class SolidDeckReader {
     return sections;
   }
 
+  [[nodiscard]] bool is_point_mass(long number) const {
+    const DeckElement* const element = content_.find(number);
+    return element != nullptr && element->type == "MASS" &&
+           weighed_.contains(number);
+  }
+
+  void set_masses() {
+    if (ignored_.contains("elements MASS")) return;
+    for (const DeckMass& point : content_.attachments.masses()) {
+      for (const long number : content_.find_elements(point.elset)) {
+        if (!is_point_mass(number)) continue;
+        const DeckElement& element = *content_.find(number);
+        if (element.nodes.size() != 1 || !used_.contains(element.nodes[0]))
+          throw InputError(fmt::format(
+              "{}: the mass {} is not at one node of a solid. Expected one; a "
+              "mass on arms is a link of the scene.",
+              content_.place_of(element), number));
+        deck_.masses[element.nodes[0]] += point.mass;
+      }
+    }
+  }
+
   void check_nodes(const DeckElement& element) const {
     for (const std::size_t node : element.nodes)
       if (!content_.nodes.contains(node))
@@ -203,6 +235,9 @@ class SolidDeckReader {
           for (const std::size_t node : element->nodes)
             content_.node_sets.add(keyword.get("NSET"),
                                    static_cast<long>(node));
+    for (const long node : content_.attachments.find_held(content_.node_sets))
+      if (used_.contains(static_cast<std::size_t>(node)))
+        content_.node_sets.add(kHeldNodes, node);
     for (const auto& [name, numbers] : content_.node_sets.all()) {
       constexpr int kPoint = 15;
       DeckGroup group{content_.spell(name), 0, {}};
@@ -286,7 +321,8 @@ class SolidDeckReader {
     tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(edges_, "left out as edges, as no section describes them");
     tell(content_.unused,
-         "not used, as supports and loads are those of the scene");
+         "not used, as supports and loads are those of the scene; nodes of "
+         "solids that *BOUNDARY holds in 1, 2 and 3 are the set boundary");
   }
 
   void report_unused_nodes() {
@@ -322,6 +358,7 @@ class SolidDeckReader {
   SolidDeck deck_;
   std::set<std::size_t> used_;  // nodes
   DeckCounts refused_;
+  std::set<long> weighed_;  // elements of *MASS
   DeckCounts edges_;
   DeckCounts left_out_;
   std::set<std::string> ignored_;

@@ -74,6 +74,10 @@ void convert(double unit, double force, SolidMaterial& material) {
   material.anisotropy->axes.point *= unit;
 }
 
+bool is_metric(double unit) {
+  return unit == 1.0 || unit == 1e-2 || unit == 1e-3;
+}
+
 /// Empty if there are none. Decks in inches or feet have forces in pounds or in
 /// newtons: the user must state it.
 std::vector<RegionMaterial> to_si(std::vector<RegionMaterial> materials,
@@ -83,10 +87,9 @@ std::vector<RegionMaterial> to_si(std::vector<RegionMaterial> materials,
   };
   if (std::ranges::all_of(materials, is_nameless)) return {};
   const double unit = options.unit;
-  const bool is_metric = unit == 1.0 || unit == 1e-2 || unit == 1e-3;
   for (RegionMaterial& stated : materials) {
     if (is_nameless(stated)) continue;
-    if (options.force == 0.0 && !is_metric && stated.problem.empty())
+    if (options.force == 0.0 && !is_metric(unit) && stated.problem.empty())
       stated.problem = fmt::format(
           "{} is in a unit of force that is not known, as lengths are in {:g} "
           "m. Expected the deck's unit of force (force unit N or lbf, for "
@@ -95,6 +98,25 @@ std::vector<RegionMaterial> to_si(std::vector<RegionMaterial> materials,
     convert(unit, options.force == 0.0 ? 1.0 : options.force, stated.material);
   }
   return materials;
+}
+
+/// Masses are force time^2 / length, with seconds.
+std::vector<NodeMass> to_si(const std::map<std::size_t, double>& masses,
+                            const NodeIndex& index,
+                            const std::filesystem::path& file,
+                            const MeshOptions& options) {
+  if (!masses.empty() && options.force == 0.0 && !is_metric(options.unit))
+    throw InputError(fmt::format(
+        "{}: its point masses are in a unit of force that is not known, as "
+        "lengths are in {:g} m. Expected the deck's unit of force (force unit "
+        "N or lbf, for example).",
+        file.string(), options.unit));
+  const double force = options.force == 0.0 ? 1.0 : options.force;
+  std::vector<NodeMass> list;
+  for (const auto& [node, mass] : masses)
+    if (mass > 0.0)
+      list.push_back({index.of(node), mass * force / options.unit});
+  return list;
 }
 
 }  // namespace
@@ -118,6 +140,7 @@ RawMesh make_deck_mesh(const std::filesystem::path& file, SolidDeck deck,
     mesh.blocks.push_back(make_block(block, index, types));
   mesh.volume_groups = deck.region_groups;
   mesh.materials = to_si(std::move(deck.materials), options);
+  mesh.masses = to_si(deck.masses, index, file, options);
   for (const std::string& name : list_volumes(deck))
     mesh.groups.push_back(
         make_group(name, 3, find_volume(deck, name), index, types));

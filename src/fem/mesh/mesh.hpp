@@ -43,6 +43,12 @@ struct RegionMaterial {
   std::string problem;
 };
 
+/// A point mass at a node.
+struct NodeMass {
+  int node = 0;       ///< index into Mesh::x
+  double mass = 0.0;  ///< > 0 [kg]
+};
+
 /// A face of one solid element that no other shares: part of the surface.
 struct BoundaryFace {
   int block = 0;            ///< index into Mesh::blocks
@@ -62,6 +68,7 @@ struct Mesh {
   std::vector<std::vector<std::string>> volume_groups;
   /// Of each region by its file; empty if that states none at all.
   std::vector<RegionMaterial> materials;
+  std::vector<NodeMass> masses;  ///< of its file, beside the elements'
   std::vector<BoundaryFace> boundary_faces;
   std::vector<int> boundary_nodes;  ///< sorted indices
 

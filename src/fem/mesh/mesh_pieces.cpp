@@ -2,6 +2,7 @@
 #include "limber/fem/mesh/mesh_pieces.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -49,6 +50,7 @@ class Separation {
     mesh.volume_groups = mesh_.volume_groups;
     mesh.materials = mesh_.materials;
     take_elements(p, piece);
+    take_masses(p, piece);
     check_connected(mesh);
     take_surface(p, piece);
     for (const PhysicalGroup& group : mesh_.groups) {
@@ -96,6 +98,25 @@ class Separation {
       }
       piece.mesh.blocks.push_back(std::move(part));
     }
+  }
+
+  /// A mass on a cut is the first piece's.
+  void take_masses(int p, MeshPiece& piece) const {
+    for (const NodeMass& point : mesh_.masses)
+      if (find_first_label(point.node) == p)
+        piece.mesh.masses.push_back({piece.find(point.node), point.mass});
+  }
+
+  [[nodiscard]] int find_first_label(int node) const {
+    int first = std::numeric_limits<int>::max();
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      const ElementBlock& block = mesh_.blocks[b];
+      for (std::size_t i = 0; i < block.nodes.size(); ++i)
+        if (block.nodes[i] == node)
+          first = std::min(
+              first, labels_[first_[b] + i / index(block.element->node_count)]);
+    }
+    return first;
   }
 
   void take_surface(int p, MeshPiece& piece) const {

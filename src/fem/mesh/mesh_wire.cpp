@@ -2,6 +2,7 @@
 #include "limber/fem/mesh/mesh_wire.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -24,9 +25,13 @@ static void exchange(Wire& wire, ReferenceElement& element) {
        element.face_rules);
 }
 
+static void exchange(Wire& wire, NodeMass& point) {
+  wire(point.node, point.mass);
+}
+
 namespace {
 
-constexpr std::uint64_t kMagic = 0x33304853454d4d4c;         // "LMMESH03"
+constexpr std::uint64_t kMagic = 0x34304853454d4d4c;         // "LMMESH04"
 constexpr std::uint64_t kContentMagic = 0x32304853454d4d4c;  // "LMMESH02"
 
 using Element = std::shared_ptr<const ReferenceElement>;
@@ -279,6 +284,11 @@ Mesh from_wire(WireMesh wire) {
   return mesh;
 }
 
+void check_masses(const std::vector<NodeMass>& masses, std::size_t nodes) {
+  for (const auto& [node, mass] : masses)
+    require(are_within({node}, nodes) && mass > 0.0 && std::isfinite(mass));
+}
+
 void exchange_head(Wire& wire, MeshReply& reply) {
   std::uint64_t magic = kMagic;
   wire(magic);
@@ -299,7 +309,8 @@ std::string pack_reply(const MeshReply& reply) {
   if (!reply.problems.empty()) return wire.bytes();
   WireMesh mesh = to_wire(reply.mesh);
   std::vector<WireMaterial> materials = to_wire(reply.mesh.materials);
-  wire(mesh, materials);
+  std::vector<NodeMass> masses = reply.mesh.masses;
+  wire(mesh, materials, masses);
   return wire.bytes();
 }
 
@@ -310,9 +321,12 @@ MeshReply unpack_reply(std::string bytes) {
   if (reply.problems.empty()) {
     WireMesh mesh;
     std::vector<WireMaterial> materials;
-    wire(mesh, materials);
+    std::vector<NodeMass> masses;
+    wire(mesh, materials, masses);
     reply.mesh = from_wire(std::move(mesh));
     reply.mesh.materials = from_wire(materials);
+    check_masses(masses, reply.mesh.node_count());
+    reply.mesh.masses = std::move(masses);
     require(materials.empty() ||
             materials.size() == reply.mesh.volume_groups.size());
   }
@@ -332,6 +346,10 @@ std::string find_mesh_content(const Mesh& mesh) {
     std::vector<WireMaterial> values = to_wire(mesh.materials);
     materials(values);
     digest.add_bytes(materials.bytes().data(), materials.bytes().size());
+  }
+  for (const auto& [node, mass] : mesh.masses) {
+    digest.add(node);
+    digest.add(mass);
   }
   return digest.text();
 }

@@ -42,6 +42,7 @@ struct SolidDeck {
   /// Of each region, in the deck's units of length and force, and seconds;
   /// empty if it states none at all.
   std::vector<RegionMaterial> materials;
+  std::map<std::size_t, double> masses;  ///< point masses, by node
   std::vector<DeckGroup> groups;
   /// Parts of the file without effect here, and nodes without a solid.
   std::vector<std::string> notices;

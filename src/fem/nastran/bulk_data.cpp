@@ -17,6 +17,7 @@
 #include "limber/fem/nastran/bulk_card.hpp"
 #include "limber/fem/nastran/card_effect.hpp"
 #include "limber/fem/nastran/grid_table.hpp"
+#include "limber/fem/nastran/solid_attachments.hpp"
 #include "limber/fem/nastran/solid_card.hpp"
 #include "limber/fem/nastran/solid_materials.hpp"
 
@@ -50,7 +51,8 @@ class BulkReader {
       : deck_(read_deck(file)),
         problems_(deck_),
         grids_(problems_),
-        materials_(deck_, problems_) {
+        materials_(deck_, problems_),
+        attachments_(problems_) {
     for (const std::string& card : ignored) ignored_.insert(to_upper(card));
   }
 
@@ -63,6 +65,7 @@ class BulkReader {
     for (const auto& [name, refused] : refused_) refuse(name, refused);
     set_positions();
     set_materials();
+    attachments_.resolve(used_, materials_.mass_factor(), data_);
     problems_.check();
     report_unused();
     name_regions();
@@ -84,6 +87,9 @@ class BulkReader {
       grids_.add_system(card);
     } else if (materials_.add(card)) {
       return;
+    } else if (!ignored_.contains(std::string(card.name)) &&
+               attachments_.add(card)) {
+      if (card.name.starts_with("SPC")) count_card(card, unused_);
     } else if (find_card_effect(card.name) == CardEffect::on_body) {
       count_card(card, refused_);
     } else if (find_card_effect(card.name) == CardEffect::outside) {
@@ -189,8 +195,9 @@ class BulkReader {
     problems_.add(
         *refused.first,
         fmt::format(
-            "{}{} {} and would be lost. Expected solid elements only "
-            "(CTETRA, CPENTA, CHEXA, CPYRAM): mesh it with solids, or "
+            "{}{} {} and would be lost. Expected solid elements (CTETRA, "
+            "CPENTA, CHEXA, CPYRAM), CONM2, RBE2 and RBE3 only; beams and "
+            "shells beside solids are not supported: mesh it with solids, or "
             "remove it and model it in the scene by links and joints; or "
             "ignore {} to go on without.",
             name,
@@ -242,7 +249,8 @@ class BulkReader {
     if (!unused_.empty())
       data_.notices.push_back(
           fmt::format("{}: not used: {}. Supports and loads are those of the "
-                      "scene.",
+                      "scene; nodes of solids that SPC and SPC1 hold in 1, 2 "
+                      "and 3 are the sets spc:SID.",
                       deck_.files[0].string(), list_counts(unused_)));
     if (!deck_.has_end)
       data_.notices.push_back(
@@ -310,6 +318,7 @@ class BulkReader {
   DeckProblems problems_;
   GridTable grids_;
   SolidMaterials materials_;
+  SolidAttachments attachments_;
   SolidDeck data_;
   std::map<int, std::vector<const DeckLine*>> lines_;  // of data_.solids
   std::unordered_set<int> elements_;

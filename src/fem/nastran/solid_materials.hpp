@@ -25,6 +25,8 @@ class SolidMaterials {
   /// In the deck's units; a problem in it, or no name, where it has none.
   /// @param grids complete
   [[nodiscard]] RegionMaterial find(int property, GridTable& grids) const;
+  /// Of PARAM WTMASS [-].
+  [[nodiscard]] double mass_factor() const { return mass_factor_; }
 
  private:
   struct Material {

@@ -159,6 +159,15 @@ void add_block(const ElementBlock& block, const ElementFunction& calc,
 StructuralMatrices assemble(const Mesh& mesh,
                             const std::vector<ElasticMaterial>& materials,
                             const Progress& progress) {
+  StructuralMatrices sum = assemble_elements(mesh, materials, progress);
+  for (const auto& [node, mass] : mesh.masses)
+    sum.M_s.coeffRef(node, node) += mass;
+  return sum;
+}
+
+StructuralMatrices assemble_elements(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const Progress& progress) {
   LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
   const Neighbours neighbours = find_neighbours(mesh);
   check_size(mesh, neighbours);

@@ -11,7 +11,8 @@
 
 namespace limber::fem {
 
-/// Consistent mass and stiffness of the mesh, one material per region.
+/// Consistent mass and stiffness of the mesh, one material per region, with the
+/// mesh's point masses.
 /// In parallel; bitwise the same for any number of threads.
 /// @throws InputError if the matrix has more entries than an int can count.
 [[nodiscard]] StructuralMatrices assemble(
@@ -20,6 +21,11 @@ namespace limber::fem {
 
 /// Nodes that share an element with each node, itself included, sorted.
 using Neighbours = std::vector<std::vector<int>>;
+
+/// The same without point masses.
+[[nodiscard]] StructuralMatrices assemble_elements(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const Progress& progress = {});
 
 /// Assembles one stiffness after another with the same pattern, the lower
 /// triangle of 3N x 3N. In parallel; the same for any number of threads.

@@ -61,7 +61,7 @@ LengthField find_length_field(const Mesh& mesh) {
   constexpr double kSettled = 1e-10;
   const std::vector<ElasticMaterial> unit(mesh.volume_groups.size(),
                                           ElasticMaterial{1.0, 0.0, 1.0});
-  const StructuralMatrices matrices = assemble(mesh, unit);
+  const StructuralMatrices matrices = assemble_elements(mesh, unit);
   const SparseMatrix& M = matrices.M_s;
   const SparseMatrix L = find_laplacian(matrices);
   const double size = mesh.size().maxCoeff();

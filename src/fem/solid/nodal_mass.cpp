@@ -23,6 +23,7 @@ VectorX calc_lumped_mass(const Mesh& mesh,
       }
     }
   }
+  for (const auto& [node, point] : mesh.masses) mass[node] += point;
   return mass;
 }
 

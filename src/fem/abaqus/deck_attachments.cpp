@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/abaqus/deck_attachments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/upper_case.hpp"
+
+namespace limber::fem {
+namespace {
+
+constexpr unsigned kAllThree = 0b111;
+
+/// Of *BOUNDARY's named kinds; those of symmetry hold in part only.
+unsigned find_named_mask(const std::string& name) {
+  return name == "ENCASTRE" || name == "PINNED" ? kAllThree : 0;
+}
+
+}  // namespace
+
+bool DeckAttachments::add_data(const TextScanner& at, const Keyword& keyword,
+                               std::string_view line) {
+  if (keyword.name == "MASS") {
+    const std::string_view field = split_commas(line)[0];
+    double mass = 0.0;
+    if (!parse_real(field, mass) || !(mass >= 0.0))
+      at.fail(
+          fmt::format("*MASS is '{}'. Expected a number >= 0.", echo(field)));
+    masses_.push_back({keyword.get("ELSET"), mass});
+    return true;
+  }
+  if (keyword.name != "BOUNDARY") return false;
+  add_support(at, line);
+  return true;
+}
+
+/// Node or set; first and last component, or the name of a kind.
+void DeckAttachments::add_support(const TextScanner& at,
+                                  std::string_view line) {
+  const std::vector<std::string_view> fields = split_commas(line);
+  if (fields.size() < 2) return;
+  Support support{to_upper(std::string(fields[0])), 0};
+  long first = 0;
+  if (!parse_whole(fields[1], first)) {
+    support.mask = find_named_mask(to_upper(std::string(fields[1])));
+  } else {
+    long last = first;
+    if (fields.size() > 2 && !fields[2].empty() &&
+        !parse_whole(fields[2], last))
+      at.fail(
+          fmt::format("*BOUNDARY has the last component '{}'. Expected a "
+                      "number.",
+                      echo(fields[2])));
+    for (long i = std::max(first, 1L); i <= std::min(last, 3L); ++i)
+      support.mask |= 1U << static_cast<unsigned>(i - 1);
+  }
+  supports_.push_back(std::move(support));
+}
+
+void DeckAttachments::take(DeckAttachments part) {
+  masses_.insert(masses_.end(), part.masses_.begin(), part.masses_.end());
+  supports_.insert(supports_.end(), part.supports_.begin(),
+                   part.supports_.end());
+}
+
+std::set<long> DeckAttachments::find_held(const DeckSets& node_sets) const {
+  std::map<long, unsigned> masks;
+  for (const Support& support : supports_) {
+    long node = 0;
+    if (parse_whole(support.of, node)) masks[node] |= support.mask;
+    for (const long number : node_sets.get(support.of))
+      masks[number] |= support.mask;
+  }
+  std::set<long> held;
+  for (const auto& [node, mask] : masks)
+    if (mask == kAllThree) held.insert(node);
+  return held;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limber/fem/text/deck_sets.hpp"
+
+namespace limber::fem {
+
+/// *MASS: of each element of a set.
+struct DeckMass {
+  std::string elset;
+  double mass = 0.0;  ///< >= 0 [deck units]
+};
+
+/// *MASS and *BOUNDARY of an input file.
+class DeckAttachments {
+ public:
+  /// @returns whether the line is theirs
+  /// @throws InputError with file and line
+  bool add_data(const TextScanner& at, const Keyword& keyword,
+                std::string_view line);
+  /// Adds those of a part.
+  void take(DeckAttachments part);
+
+  [[nodiscard]] const std::vector<DeckMass>& masses() const { return masses_; }
+  /// Nodes that are held in 1, 2 and 3.
+  [[nodiscard]] std::set<long> find_held(const DeckSets& node_sets) const;
+
+ private:
+  struct Support {
+    std::string of;     // a set of nodes, or a node's number
+    unsigned mask = 0;  // bit i: component i + 1, of the first three
+  };
+  void add_support(const TextScanner& at, std::string_view line);
+
+  std::vector<DeckMass> masses_;
+  std::vector<Support> supports_;
+};
+
+}  // namespace limber::fem
