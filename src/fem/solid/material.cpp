@@ -195,6 +195,15 @@ std::vector<std::string> describe_file_materials(
           m.youngs_modulus, m.density));
     }
   }
+  if (!mesh.masses.empty()) {
+    double sum = 0.0;
+    for (const NodeMass& point : mesh.masses) sum += point.mass;
+    lines.push_back(fmt::format(
+        "{} with point masses: {:.4g} kg in all",
+        mesh.masses.size() == 1 ? std::string("1 node")
+                                : fmt::format("{} nodes", mesh.masses.size()),
+        sum));
+  }
   return lines;
 }
 

@@ -121,6 +121,12 @@ std::shared_ptr<const MatrixPart> read_structure_part(
         fmt::format("{}: a mesh size or order was given, but its beams and "
                     "shells are elements already. Expected none.",
                     source.file.string()));
+  if (source.force > 0.0 || !source.ignored.empty())
+    throw InputError(
+        fmt::format("{}: a unit of force or cards to ignore were given, which "
+                    "go with a deck of solids. Its beams and shells have "
+                    "forces in N. Expected none.",
+                    source.file.string()));
   report(progress, "reading beams and shells", 0.0);
   const fem::Structure structure = fem::read_structure(source.file);
   if (files != nullptr) *files = structure.files;

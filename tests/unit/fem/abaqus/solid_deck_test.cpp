@@ -305,8 +305,9 @@ TEST(SolidDeck, ReportsWhatItLeavesOut) {
   EXPECT_THAT(all, HasSubstr("1 elements T3D2"));
   EXPECT_THAT(all, HasSubstr("1 *BOUNDARY"));
   EXPECT_THAT(all, HasSubstr("1 *CLOAD"));
-  ASSERT_EQ(deck.groups.size(), 1U);  // the plane element, which nothing has
-  EXPECT_EQ(deck.groups[0].name, "Base");
+  ASSERT_EQ(deck.groups.size(), 2U);
+  EXPECT_EQ(deck.groups[0].name, "Base");  // a plane element without section
+  EXPECT_EQ(deck.groups[1].name, "boundary");
 }
 
 /// Two solids, in sets A and B.
