@@ -11,6 +11,8 @@
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_wire.hpp"
 #include "limber/fem/nastran/bulk_data.hpp"
+#include "limber/fem/structural/assemble_structure.hpp"
+#include "limber/fem/structural/read_structure.hpp"
 #endif
 #include "fuzz/body_edits.hpp"
 #include "limber/app/study/study_reader.hpp"
@@ -119,6 +121,19 @@ void read_bulk_deck(std::string_view bytes) {
   (void)fem::read_bulk_data(write_input(bytes, "deck.bdf"));
 }
 
+// Beams and shells, whatever the deck has, with their elements' matrices.
+void read_structure_deck(std::string_view bytes, const std::string& name) {
+  (void)fem::assemble_structure(fem::read_structure(write_input(bytes, name)));
+}
+
+void read_bulk_structure(std::string_view bytes) {
+  read_structure_deck(bytes, "structure.bdf");
+}
+
+void read_input_structure(std::string_view bytes) {
+  read_structure_deck(bytes, "structure.inp");
+}
+
 // Files of a model, each behind a line "=== NAME".
 void read_matrix_files(std::string_view bytes) {
   constexpr std::string_view kMark = "=== ";
@@ -162,6 +177,8 @@ const std::vector<Reader>& all_readers() {
       {"matrices", read_matrix_files},
       {"input_deck", read_input_deck},
       {"bulk_deck", read_bulk_deck},
+      {"bulk_structure", read_bulk_structure},
+      {"input_structure", read_input_structure},
 #endif
   };
   return readers;
