@@ -45,6 +45,11 @@ constexpr std::array<std::string_view, 12> kOutside = {
     "BASE MOTION", "FILM",        "RADIATE",
     "CFLUX",       "DFLUX",       "MODEL CHANGE"};
 
+/// Of materials, beside linear elasticity.
+constexpr std::array<std::string_view, 6> kLaws = {
+    "PLASTIC",   "CREEP",   "VISCOELASTIC",
+    "EXPANSION", "DAMPING", "CYCLIC HARDENING"};
+
 template <typename List>
 bool has_keyword(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != list.end();
@@ -109,6 +114,7 @@ class ContentReader {
     if (has_keyword(kConstraints, name))
       count(at, "*" + name, deck_.constraints);
     if (has_keyword(kOutside, name)) count(at, "*" + name, deck_.unused);
+    if (has_keyword(kLaws, name)) count(at, "*" + name, deck_.laws);
     deck_.materials.begin(at, keyword_);
     if (name == "SURFACE" && keyword_.has("TYPE") &&
         keyword_.get("TYPE") == "NODE")
@@ -334,6 +340,7 @@ void DeckContent::take(DeckContent part, const Pose& pose) {
   spelling.merge(part.spelling);
   constraints.merge(part.constraints);
   unused.merge(part.unused);
+  laws.merge(part.laws);
 }
 
 const DeckElement* DeckContent::find(long number) const {

@@ -57,6 +57,7 @@ struct DeckContent {
   std::map<std::string, std::string> spelling;
   DeckCounts constraints;  ///< and contact
   DeckCounts unused;       ///< supports, loads
+  DeckCounts laws;         ///< of materials, beside linear elasticity
 
   /// Adds a part's content, whose numbers and names are its own, moved.
   void take(DeckContent part, const Pose& pose);

@@ -165,12 +165,15 @@ class SolidDeckReader {
       for (const long number : content_.find_elements(section.elset)) {
         const auto [entry, is_new] =
             sections.emplace(static_cast<std::size_t>(number), &section);
-        if (is_new || entry->second->elset == section.elset) continue;
+        const DeckMaterials::Section& other = *entry->second;
+        if (is_new || (other.elset == section.elset &&
+                       other.material == section.material &&
+                       other.orientation == section.orientation))
+          continue;
         throw InputError(fmt::format(
             "{}: element {} has two sections, of the sets {} and {}. Expected "
             "one.",
-            section.place, number, echo(entry->second->elset),
-            echo(section.elset)));
+            section.place, number, echo(other.elset), echo(section.elset)));
       }
     }
     return sections;
@@ -320,6 +323,7 @@ class SolidDeckReader {
     };
     tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(edges_, "left out as edges, as no section describes them");
+    tell(content_.laws, "not used, as materials here are linear elastic");
     tell(content_.unused,
          "not used, as supports and loads are those of the scene; nodes of "
          "solids that *BOUNDARY holds in 1, 2 and 3 are the set boundary");

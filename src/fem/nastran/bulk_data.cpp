@@ -92,7 +92,8 @@ class BulkReader {
       if (card.name.starts_with("SPC")) count_card(card, unused_);
     } else if (find_card_effect(card.name) == CardEffect::on_body) {
       count_card(card, refused_);
-    } else if (find_card_effect(card.name) == CardEffect::outside) {
+    } else if (find_card_effect(card.name) == CardEffect::outside ||
+               card.name.starts_with("MATS")) {  // a law beyond elasticity
       count_card(card, unused_);
     }
   }

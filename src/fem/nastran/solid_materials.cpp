@@ -54,6 +54,8 @@ bool SolidMaterials::add(const BulkCard& card) {
   } else if (card.name == "PARAM" &&
              to_upper(std::string(card.field(0))) == "WTMASS") {
     mass_factor_ = card.real(1, *problems_).value_or(1.0);
+    if (!(mass_factor_ > 0.0))
+      problems_->add(*card.line, "WTMASS is not > 0. Expected a factor.");
   } else {
     return false;
   }

@@ -299,12 +299,14 @@ TEST(SolidDeck, ReportsWhatItLeavesOut) {
           "*NODE\n9, 5, 5, 5\n*ELEMENT, TYPE=T3D2, ELSET=L\n40, 1, 2\n"
           "*ELEMENT, TYPE=CPS3, ELSET=Base\n50, 1, 2, 3\n"
           "*ELSET, ELSET=A\n10\n*ELSET, ELSET=B\n20\n"
-          "*BOUNDARY\n1, 1, 3\n*STEP\n*CLOAD\n2, 1, 1.\n*END STEP\n"));
+          "*MATERIAL, NAME=M\n*PLASTIC\n1., 0.\n*BOUNDARY\n1, 1, "
+          "3\n*STEP\n*CLOAD\n2, 1, 1.\n*END STEP\n"));
   const std::string all = fmt::format("{}", fmt::join(deck.notices, "\n"));
   EXPECT_THAT(all, HasSubstr("1 of 6 nodes belong to no solid"));
   EXPECT_THAT(all, HasSubstr("1 elements T3D2"));
   EXPECT_THAT(all, HasSubstr("1 *BOUNDARY"));
   EXPECT_THAT(all, HasSubstr("1 *CLOAD"));
+  EXPECT_THAT(all, HasSubstr("linear elastic: 1 *PLASTIC"));
   ASSERT_EQ(deck.groups.size(), 2U);
   EXPECT_EQ(deck.groups[0].name, "Base");  // a plane element without section
   EXPECT_EQ(deck.groups[1].name, "boundary");
