@@ -20,15 +20,13 @@ def _list_numbers(value):
 
 def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, shear_modulus=None,
            stiffness=None, density=None, axis_1=None, axis_2=None, cylinder_axis=None,
-           cylinder_point=None, matrices=None, mass=None, recovery=(), interfaces=(), clamps=(), modes=10,
-           rows=("boundary",), size=0.0, order=0, unit=None, force_unit=None,
-           ignore=(), second_order=False,
-           stress=False):
+           cylinder_point=None, matrices=None, mass=None, recovery=(), interfaces=(),
+           clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=None,
+           force_unit=None, ignore=(), second_order=False, stress=False):
     """Reduces a mesh or geometry to a body that no longer needs the mesh, or the
     stiffness and mass matrix of a finite-element model.
 
-    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh, but
-    not of a deck (.bdf, .inp) that has its materials; of an
+    ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3] of a mesh; of an
     orthotropic material E1, E2, E3, nu12, nu13, nu23 and ``shear_modulus`` G12, G13, G23
     [Pa], of an anisotropic one ``stiffness``, 21 constants [Pa] in place of moduli, in
     the axes ``axis_1`` and ``axis_2`` (vectors), or radial, tangential and along

@@ -277,6 +277,15 @@ def test_a_deck_of_shells_has_its_material_and_the_frequencies_of_calculix():
         limber.reduce(deck, youngs_modulus=1e9, poisson_ratio=0.3, density=1e3)
 
 
+def test_a_deck_of_solids_has_its_material_masses_and_supports():
+    deck = SOURCE / "tests/data/attachments/masses.bdf"
+    body = limber.reduce(deck, unit="mm", clamps=["spc:12"], modes=3)
+    # CalculiX 2.20 (tests/data/attachments).
+    assert body.eigenvalues == pytest.approx([8.878801e6, 1.282718e7, 8.856904e7], rel=5e-7)
+    heavy = limber.reduce(deck, unit="mm", force_unit=2.0, ignore="CONM2", modes=3)
+    assert heavy.mass == pytest.approx(2.0 * (body.mass - 0.07), rel=1e-12)
+
+
 def test_peaks_and_envelopes_are_those_of_all_steps(sled, tmp_path):
     run = limber.load(sled).run()
     run.save(tmp_path / "o")
