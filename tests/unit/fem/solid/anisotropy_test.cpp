@@ -270,7 +270,8 @@ TEST(AnisotropicSolid, NeoHookeanLawRefusesIt) {
                InputError);
 }
 
-/// Eigenvalues that CalculiX prints for a deck: tests/data/anisotropic.
+/// Eigenvalues that CalculiX prints for a deck, of C3D10 those by SciPy:
+/// tests/data/anisotropic.
 struct Reference {
   std::string deck;
   Vector6 eigenvalues;
@@ -292,20 +293,21 @@ const Vector6 kBlock{
     {3.214572e8, 4.276792e8, 5.043727e8, 1.620335e9, 1.750959e9, 2.147099e9}};
 INSTANTIATE_TEST_SUITE_P(
     Decks, AgainstCalculix,
-    ::testing::Values(Reference{"block.inp", kBlock, 5e-7},
-                      Reference{"block.bdf", kBlock, 5e-7},
-                      Reference{"turned.inp",
-                                Vector6{{3.017236e8, 3.970678e8, 5.559564e8,
-                                         1.568286e9, 1.596271e9, 2.124486e9}},
-                                5e-7},
-                      Reference{"orthotropic.inp",
-                                Vector6{{3.309996e8, 4.292590e8, 7.064908e8,
-                                         1.607274e9, 1.987426e9, 2.763844e9}},
-                                5e-7},
-                      Reference{"anisotropic.inp",
-                                Vector6{{3.007980e8, 4.035775e8, 7.225107e8,
-                                         1.475447e9, 1.847618e9, 2.836607e9}},
-                                5e-7}),
+    ::testing::Values(
+        Reference{"block.inp", kBlock, 5e-7},
+        Reference{"block.bdf", kBlock, 5e-7},
+        Reference{"turned.inp",
+                  Vector6{{3.017236e8, 3.970678e8, 5.559564e8, 1.568286e9,
+                           1.596271e9, 2.124486e9}},
+                  5e-7},
+        Reference{"orthotropic.inp",
+                  Vector6{{3.280455423e8, 4.232311533e8, 6.970930467e8,
+                           1.604456248e9, 1.919316565e9, 2.618897262e9}},
+                  1e-9},
+        Reference{"anisotropic.inp",
+                  Vector6{{2.977993237e8, 3.983724959e8, 7.086667321e8,
+                           1.470833164e9, 1.776249341e9, 2.633507499e9}},
+                  1e-9}),
     [](const auto& tested) {
       std::string name = tested.param.deck;
       std::replace(name.begin(), name.end(), '.', '_');
