@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/view/page_arrays.hpp"
 
-#include <zlib.h>
-
 #include <cmath>
 #include <limits>
 
@@ -58,18 +56,6 @@ Quantised quantise(const VectorX& values) {
         static_cast<std::int16_t>(std::lround(values[i] / result.scale));
   }
   return result;
-}
-
-std::string compress(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string packed(size, '\0');
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION);
-  LIMBER_EXPECT(status == Z_OK);
-  packed.resize(size);
-  return packed;
 }
 
 std::string encode_base64(const std::string& bytes) {

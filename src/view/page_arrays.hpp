@@ -37,9 +37,6 @@ struct Quantised {
 /// @param values finite; if all are below 2.3e-308, zeros without a scale
 [[nodiscard]] Quantised quantise(const VectorX& values);
 
-/// zlib's format. @throws ContractError if memory is short.
-[[nodiscard]] std::string compress(const std::string& bytes);
-
 /// RFC 4648.
 [[nodiscard]] std::string encode_base64(const std::string& bytes);
 

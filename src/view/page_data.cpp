@@ -7,6 +7,7 @@
 
 #include "limber/common/escape_texts.hpp"
 #include "limber/version.hpp"
+#include "limber/view/compress.hpp"
 #include "limber/view/extremes.hpp"
 #include "limber/view/home.hpp"
 #include "limber/view/page_arrays.hpp"
@@ -62,7 +63,7 @@ class PageWriter {
     std::memcpy(bytes.data(), &length, 4);
     bytes += text;
     bytes.resize((bytes.size() + 7) / 8 * 8, ' ');
-    return compress(bytes + arrays_.bytes());
+    return bytes + arrays_.bytes();
   }
 
  private:
@@ -226,13 +227,17 @@ class PageWriter {
 
 }  // namespace
 
-std::string make_page_data(std::span<const Recording> recordings) {
+std::string pack_page_data(std::span<const Recording> recordings) {
   PageWriter writer;
   json header = {{"layout", 2}, {"limber", LIMBER_VERSION}};
   for (const Recording& recording : recordings) {
     header["results"].push_back(writer.write(recording));
   }
   return writer.finish(header);
+}
+
+std::string make_page_data(std::span<const Recording> recordings) {
+  return compress(pack_page_data(recordings));
 }
 
 }  // namespace limber::view

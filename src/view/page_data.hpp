@@ -24,4 +24,7 @@ namespace limber::view {
 /// @param recordings the first is shown, others are its ghosts
 [[nodiscard]] std::string make_page_data(std::span<const Recording> recordings);
 
+/// The same, not compressed.
+[[nodiscard]] std::string pack_page_data(std::span<const Recording> recordings);
+
 }  // namespace limber::view

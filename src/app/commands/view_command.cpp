@@ -10,7 +10,11 @@
 #include <vector>
 
 #include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/scene_loading.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/play_scene.hpp"
 #include "limber/app/run/view_page.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/view/page.hpp"
@@ -23,6 +27,8 @@ struct ViewOptions {
   std::vector<std::string> results;  // the first is shown
   std::vector<std::string> ghosts;
   std::string out;
+  std::string play;  // a scenario, in place of results
+  std::string cache;
 };
 
 /// Runs of a comparison, the reference first; none if it is not one.
@@ -82,24 +88,49 @@ void show(const ViewOptions& options) {
   fmt::print("{}\n", describe_view(page));
 }
 
+void play(const ViewOptions& options) {
+  view::find_playground();  // before bodies are reduced
+  const scene::Scene scene = load_with_notes(options.play, {});
+  const view::Playground playground =
+      make_playground(scene, options.cache, make_progress_bar());
+  clear_progress_bar();
+  const std::filesystem::path page =
+      options.out.empty() ? scene.scenario.name + ".html" : options.out;
+  view::write_play_page(page, playground);
+  fmt::print("{}\n", describe_view(page));
+}
+
 }  // namespace
 
 void add_view(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand(
       "view", "Show results in a browser: one HTML file, without a network");
+  CLI::Option* results = command->add_option(
+      "results", options->results,
+      "Folder of a run or of a comparison, or its results.h5; more "
+      "of them are its ghosts, or side by side (b in the page)");
+  CLI::Option* ghosts =
+      command->add_option("--with", options->ghosts,
+                          "Other results, shown as ghosts (may be repeated)");
   command
-      ->add_option(
-          "results", options->results,
-          "Folder of a run or of a comparison, or its results.h5; more "
-          "of them are its ghosts, or side by side (b in the page)")
-      ->required();
-  command->add_option("--with", options->ghosts,
-                      "Other results, shown as ghosts (may be repeated)");
+      ->add_option("--play", options->play,
+                   "In place of results a scenario that the page simulates "
+                   "itself, with sliders for its values")
+      ->excludes(results)
+      ->excludes(ghosts);
+  add_cache_option(*command, options->cache)->needs("--play");
   command->add_option("-o,--out", options->out,
-                      "The file (default: view.html in the folder)");
-  command->callback(
-      [&action, options] { action = [options] { show(*options); }; });
+                      "The file (default: view.html in the folder; with --play "
+                      "the scenario's name with .html, here)");
+  command->callback([&action, options] {
+    if (options->results.empty() && options->play.empty()) {
+      throw CLI::RequiredError("results, or --play SCENARIO");
+    }
+    action = [options] {
+      options->play.empty() ? show(*options) : play(*options);
+    };
+  });
 }
 
 }  // namespace limber::app

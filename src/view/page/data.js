@@ -8,7 +8,7 @@ const kTypes = {
   u32: Uint32Array,
 };
 
-async function inflate(text) {
+export async function inflate(text) {
   const packed = await (await fetch(`data:application/zlib;base64,${text}`)).arrayBuffer();
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Response(stream).arrayBuffer();
@@ -53,11 +53,18 @@ function unpackStress(stress) {
   return stress?.map(({ scale, values }) => Float32Array.from(values, (value) => scale * value));
 }
 
-/// Results, the shown one first. Lists that are empty may be absent in the file.
-export async function readResults() {
+// The page's own, or in the frame of a playground those that it was given.
+async function readBytes() {
+  if (window.frameElement?.limberData) return window.frameElement.limberData;
   const element = document.getElementById('limber-data');
   const buffer = await inflate(element.textContent.trim());
   element.remove();
+  return buffer;
+}
+
+/// Results, the shown one first. Lists that are empty may be absent in the file.
+export async function readResults() {
+  const buffer = await readBytes();
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const bytes = new Uint8Array(buffer);

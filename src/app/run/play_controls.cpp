@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/play_controls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/scene/text/setting.hpp"
+
+namespace limber::app {
+namespace {
+
+constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+
+using Controls = std::vector<view::PlayControl>;
+
+/// A slider for each component, on both sides of zero.
+void add_vector(const std::string& label, const std::string& path,
+                const std::string& unit, const Vector3& value, double most,
+                Controls& controls) {
+  for (int c = 0; c < 3; ++c) {
+    controls.push_back({fmt::format("{} {}", label, kAxes[std::size_t(c)]),
+                        fmt::format("{}.{}", path, c), unit, value[c], -most,
+                        most});
+  }
+}
+
+void add_load(const scene::LoadSpec& load, Controls& controls) {
+  const std::string path = "load." + scene::quote_part(load.name);
+  if (load.force.norm() > 0.0) {
+    add_vector(load.name + ": force", path + ".force", "N", load.force,
+               3.0 * load.force.norm(), controls);
+  }
+  if (load.where.point && load.where.point->norm() > 0.0) {
+    add_vector(load.name + ": place", path + ".point", "m", *load.where.point,
+               load.where.point->norm(), controls);
+  }
+  if (const auto* pulse = std::get_if<dynamics::Pulse>(&load.time)) {
+    controls.push_back({load.name + ": duration", path + ".time.duration", "s",
+                        pulse->duration, 0.1 * pulse->duration,
+                        5.0 * pulse->duration});
+  }
+}
+
+/// `full` needs the mesh, which a page does not have; `nonlinear` needs tables
+/// that bodies of other levels lack.
+void add_level(const scene::Scenario& scenario, Controls& controls) {
+  const std::string given{to_string(scenario.fidelity)};
+  std::vector<std::string> choices = {"rigid", "uncoupled", "one-way",
+                                      "coupled"};
+  if (std::ranges::find(choices, given) == choices.end()) {
+    choices.push_back(given);
+  }
+  controls.push_back({"level", "level", "", 0.0, 0.0, 0.0, choices, given});
+}
+
+void add_contact(const scene::ContactSpec& contact, std::size_t number,
+                 Controls& controls) {
+  const std::string label =
+      fmt::format("{} on {}", contact.between[0], contact.between[1]);
+  const std::string path = fmt::format("contact.{}", number);
+  if (contact.options.restitution) {
+    controls.push_back({label + ": restitution", path + ".restitution", "",
+                        *contact.options.restitution, 0.0, 1.0});
+  }
+  if (contact.options.friction) {
+    controls.push_back({label + ": friction", path + ".friction", "",
+                        *contact.options.friction, 0.0, 1.5});
+  }
+}
+
+void add_start(const std::string& name, const std::string& path,
+               const scene::BodyStart& start, Controls& controls) {
+  if (start.velocity.norm() > 0.0) {
+    add_vector(name + ": velocity", path + ".velocity", "m/s", start.velocity,
+               3.0 * start.velocity.norm(), controls);
+  }
+  if (start.angular_velocity.norm() > 0.0) {
+    add_vector(name + ": tumble", path + ".angular_velocity", "rad/s",
+               start.angular_velocity, 3.0 * start.angular_velocity.norm(),
+               controls);
+  }
+}
+
+}  // namespace
+
+std::vector<view::PlayControl> list_controls(const scene::Scene& scene) {
+  const scene::Scenario& scenario = scene.scenario;
+  Controls controls;
+  for (const scene::LoadSpec& load : scenario.loads) add_load(load, controls);
+  for (const scene::RobotSpec& robot : scenario.robots) {
+    add_start(robot.name, "robot." + scene::quote_part(robot.name), robot.start,
+              controls);
+  }
+  for (const scene::ProjectileSpec& body : scenario.projectiles) {
+    add_start(body.name, "projectile." + scene::quote_part(body.name),
+              body.start, controls);
+  }
+  for (std::size_t i = 0; i < scenario.contacts.size(); ++i) {
+    add_contact(scenario.contacts[i], i, controls);
+  }
+  const bool bends = std::ranges::any_of(
+      scene.robot.links, [](const auto& link) { return bool(link.flexible); });
+  if (bends) add_level(scenario, controls);
+  const double step = scenario.settings.step;
+  if (scenario.settings.step_changes.empty()) {
+    controls.push_back(
+        {"step", "time.step", "s", step, 0.2 * step, 5.0 * step});
+  }
+  return controls;
+}
+
+}  // namespace limber::app

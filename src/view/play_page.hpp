@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace limber::view {
+
+/// A slider of a playground, or a choice.
+struct PlayControl {
+  std::string label;
+  std::string path;  ///< of the setting (`--set`), or "level"
+  std::string unit;
+  double value = 0.0, least = 0.0, most = 0.0;  ///< of a slider [`unit`]
+  std::vector<std::string> choices = {};        ///< of a choice
+  std::string choice = {};                      ///< its value
+};
+
+/// A scene that a page simulates itself.
+struct Playground {
+  std::string name;
+  std::string scenario;               ///< its path among `files`
+  std::string level;                  ///< the default one
+  bool has_rigid = false;             ///< whether a rigid ghost says more
+  std::vector<std::string> settings;  ///< PATH=VALUE, always
+  std::map<std::string, std::string> files;   ///< contents by path
+  std::map<std::string, std::string> bodies;  ///< paths among them by link
+  std::vector<PlayControl> controls;
+};
+
+/// Checks that the module and the page are there.
+/// @throws InputError naming what is not, and how to get it.
+void find_playground();
+
+/// Writes one HTML file that simulates a scene in a browser's worker, without a
+/// network: the dynamics as WebAssembly (scripts/playground), in the page of
+/// write_page.
+/// @throws InputError as find_playground, or if the file cannot be written.
+void write_play_page(const std::filesystem::path& file,
+                     const Playground& playground);
+
+}  // namespace limber::view
