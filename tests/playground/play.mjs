@@ -1,29 +1,28 @@
-// Runs a scene in the playground's module under node, and keeps its results:
-// play.mjs MODULE_FOLDER SCENARIO RESULTS [PATH=VALUE...] -- [LINK=BODY...] FILE...
-// FILES go into the module's file system under their own paths; BODY is one of them.
+// Runs what a page of `limber view --play` holds under node, and keeps the results:
+// play.mjs SETUP.json RESULTS [PATH=VALUE...]
+// SETUP.json is the page's data (src/view/play_page.cpp); the page itself does the same
+// in a worker.
 import { readFile, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { dirname, resolve } from 'node:path';
 
-const [folder, scenario, results, ...rest] = process.argv.slice(2);
-const split = rest.indexOf('--');
-const settings = rest.slice(0, split);
-const bodies = rest.slice(split + 1).filter((item) => item.includes('='));
-const files = rest.slice(split + 1).filter((item) => !item.includes('='));
-const create = createRequire(import.meta.url)(resolve(folder, 'playground.js'));
-const module = await create({ wasmBinary: await readFile(resolve(folder, 'playground.wasm')) });
+const [file, results, ...settings] = process.argv.slice(2);
+const setup = JSON.parse(await readFile(file, 'utf8'));
+const glue = resolve(`${file}.glue.cjs`);
+await writeFile(glue, setup.glue);
+const create = createRequire(import.meta.url)(glue);
+const module = await create({ wasmBinary: Buffer.from(setup.module, 'base64') });
 
-for (const file of [scenario, ...files]) {
-  module.FS.mkdirTree(dirname(resolve(file)));
-  module.FS.writeFile(resolve(file), await readFile(file));
+for (const [name, content] of Object.entries(setup.files)) {
+  module.FS.mkdirTree(dirname(name));
+  module.FS.writeFile(name, Buffer.from(content, 'base64'));
 }
-for (const body of bodies) {
-  const [link, file] = body.split('=');
-  module.ccall('limber_give_body', null, ['string', 'string'], [link, resolve(file)]);
+for (const [link, body] of Object.entries(setup.bodies)) {
+  module.ccall('limber_give_body', null, ['string', 'string'], [link, body]);
 }
 const status = module.ccall(
   'limber_play', 'number', ['string', 'string', 'string'],
-  [resolve(scenario), settings.join('\n'), '']);
+  [setup.scenario, [...setup.settings, ...settings].join('\n'), '']);
 const answer = module.UTF8ToString(module._limber_answer());
 if (status !== 0) {
   console.error(`error: ${answer}`);
@@ -31,4 +30,8 @@ if (status !== 0) {
 }
 await writeFile(results, module.FS.readFile('/results.h5'));
 const { energy, ...summary } = JSON.parse(answer);
-console.log(JSON.stringify(summary));
+if (module._limber_show() !== 0) {
+  console.error(`error: ${module.UTF8ToString(module._limber_answer())}`);
+  process.exit(1);
+}
+console.log(JSON.stringify({ ...summary, outputs: energy.length, picture: module._limber_size() }));

@@ -13,7 +13,9 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
 #include "limber/common/files/scratch_folder.hpp"
+#include "limber/common/files/whole_file.hpp"
 #include "limber/flexbody/file/flat_body.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/reductions.hpp"
 
 namespace limber::app {
@@ -115,6 +117,27 @@ void refuse_full(const scene::Scene& scene) {
   }
 }
 
+/// Whether the page's files are all that the scene needs: it is read from a
+/// copy of them alone.
+void check_whole(const view::Playground& playground) {
+  const ScratchFolder scratch(fs::temp_directory_path() / "limber-play-");
+  const auto place_of = [&](const std::string& name) {
+    return scratch.path() / fs::path(name).relative_path();
+  };
+  for (const auto& [name, content] : playground.files) {
+    fs::create_directories(place_of(name).parent_path());
+    write_whole(place_of(name), content);
+  }
+  try {
+    (void)scene::load_scene(place_of(playground.scenario));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format(
+        "a page takes along the scenario, its robots and the meshes of their "
+        "shapes, and this scene needs more: {}",
+        error.what()));
+  }
+}
+
 /// A page shows no more outputs than it can draw at once.
 std::vector<std::string> limit_outputs(const scene::Scene& scene) {
   const auto& times = scene.scenario.settings.output_times;
@@ -140,6 +163,7 @@ view::Playground make_playground(const scene::Scene& scene,
   }
   playground.controls = list_controls(scene);
   add_files(scene, playground);
+  check_whole(playground);
   add_bodies(scene,
              scene::find_reductions(scene, make_reducer(progress), cache),
              playground);
