@@ -1,7 +1,8 @@
 # Bundles the page in WORK: npm fetches what package-lock.json names, esbuild
 # joins it. A failure is reported, and leaves no page, but does not fail the
 # build: nothing else needs it.
-file(REMOVE ${PAGE})
+get_filename_component(beside ${PAGE} DIRECTORY)
+file(REMOVE ${PAGE} ${beside}/play.html)
 file(GLOB sources ${SOURCE}/*.js ${SOURCE}/*.mjs ${SOURCE}/*.html
   ${SOURCE}/*.css ${SOURCE}/*.json)
 file(COPY ${sources} DESTINATION ${WORK})
