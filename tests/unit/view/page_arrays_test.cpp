@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "limber/view/compress.hpp"
+
 namespace limber::view::page_arrays_test {
 namespace {
 
