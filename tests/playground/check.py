@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The playground's module under node against the command: check.py LIMBER NODE FOLDER SCENARIO...
 The states of `limber run` and of the page of `limber view --play` must be equal to the bit, at all
-outputs: scenes without turned mounts, as the last bit of a sine is that of the C library. Ends with 77, and says why, where the module was not built (scripts/playground)."""
+outputs: scenes without turned mounts, as the last bit of a sine is that of the C library. Ends with 77, and
+says why, where the module was not built (scripts/playground)."""
 import base64
 import json
 import pathlib
