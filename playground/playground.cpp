@@ -5,17 +5,18 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/results/results_file.hpp"
+#include "limber/runs/played_scene.hpp"
 #include "limber/runs/run.hpp"
-#include "limber/scene/build/load_scene.hpp"
 #include "limber/view/page_data.hpp"
 #include "limber/view/recording.hpp"
 
@@ -27,20 +28,9 @@ constexpr const char* kResults = "/results.h5";
 
 // Read by the worker after a call.
 std::string answer;
-std::map<std::string, std::string> body_files;  // of links
+std::map<std::string, std::filesystem::path> body_files;  // of links
 std::vector<view::Recording> shown;
 std::string page_data;
-
-scene::Overrides parse_settings(const std::string& lines) {
-  scene::Overrides overrides;
-  std::istringstream in(lines);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty()) {
-      overrides.settings.push_back(scene::parse_setting(line));
-    }
-  }
-  return overrides;
-}
 
 runs::Reductions refuse_meshes() {
   const auto refuse = [](const flexbody::MeshSource&) -> flexbody::MeshAtHand {
@@ -49,14 +39,10 @@ runs::Reductions refuse_meshes() {
   return {{"", refuse}, "", {}};
 }
 
-// In place of the meshes of its file.
-void use_bodies(scene::Scene& scene) {
-  for (scene::Link& link : scene.robot.links) {
-    const auto body = body_files.find(link.name);
-    if (!link.flexible || body == body_files.end()) continue;
-    link.flexible->reduced_file = body->second;
-  }
-}
+// The page may be told, and may not: tests have none.
+EM_JS(void, report_progress, (double fraction), {
+  if (typeof LimberProgress == = 'function') LimberProgress(fraction);
+});
 
 nlohmann::json describe_energy(const runs::Run& run) {
   nlohmann::json rows = nlohmann::json::array();
@@ -69,14 +55,15 @@ nlohmann::json describe_energy(const runs::Run& run) {
   return rows;
 }
 
-void play(const std::string& file, const std::string& settings,
-          const std::string& level) {
+void play(const std::string& file, const std::string& settings) {
   const auto start = std::chrono::steady_clock::now();
-  scene::Overrides overrides = parse_settings(settings);
-  if (!level.empty()) overrides.fidelity = dynamics::parse_fidelity(level);
-  scene::Scene scene = scene::load_scene(file, overrides);
-  use_bodies(scene);
-  const runs::Run run = runs::simulate_scene(scene, {refuse_meshes()});
+  const scene::Scene scene = runs::load_played_scene(
+      file, runs::parse_play_settings(settings), body_files);
+  const runs::Run run = runs::simulate_scene(
+      scene, {.reductions = refuse_meshes(),
+              .progress = [](std::string_view, double fraction) {
+                report_progress(fraction);
+              }});
   results::write_results(kResults, run.built.model, run.history, &run.scenery,
                          &run.record);
   if (run.failure) std::rethrow_exception(run.failure);
@@ -117,13 +104,11 @@ EMSCRIPTEN_KEEPALIVE void limber_give_body(const char* link, const char* file) {
 }
 
 /// Simulates and adds a result to those shown.
-/// @param settings lines PATH=VALUE, as of `--set`
-/// @param level of every flexible link; empty: the scenario's
+/// @param settings lines PATH=VALUE of runs::parse_play_settings
 /// @returns 0 (limber_answer is JSON: seconds, steps, energy), or 2 for
 /// wrong input and 3 for a computation that failed (its message)
-EMSCRIPTEN_KEEPALIVE int limber_play(const char* file, const char* settings,
-                                     const char* level) {
-  return report([&] { play(file, settings, level); });
+EMSCRIPTEN_KEEPALIVE int limber_play(const char* file, const char* settings) {
+  return report([&] { play(file, settings); });
 }
 
 /// Leaves out what was added.

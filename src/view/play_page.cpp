@@ -50,9 +50,10 @@ nlohmann::json describe_control(const PlayControl& control) {
             {"value", control.choice},
             {"choices", control.choices}};
   }
-  return {{"label", control.label}, {"path", control.path},
-          {"unit", control.unit},   {"value", control.value},
-          {"min", control.least},   {"max", control.most}};
+  return {{"label", control.label},   {"path", control.path},
+          {"unit", control.unit},     {"value", control.value},
+          {"min", control.least},     {"max", control.most},
+          {"whole", control.is_whole}};
 }
 
 nlohmann::json describe_playground(const Playground& playground) {
@@ -66,7 +67,6 @@ nlohmann::json describe_playground(const Playground& playground) {
   }
   return {{"name", playground.name},
           {"scenario", playground.scenario},
-          {"level", playground.level},
           {"hasRigid", playground.has_rigid},
           {"settings", playground.settings},
           {"files", std::move(files)},

@@ -11,18 +11,18 @@ namespace limber::view {
 /// A slider of a playground, or a choice.
 struct PlayControl {
   std::string label;
-  std::string path;  ///< of the setting (`--set`), or "level"
-  std::string unit;
+  std::string path;  ///< as runs::parse_play_settings takes it
+  std::string unit = {};
   double value = 0.0, least = 0.0, most = 0.0;  ///< of a slider [`unit`]
   std::vector<std::string> choices = {};        ///< of a choice
   std::string choice = {};                      ///< its value
+  bool is_whole = false;                        ///< takes whole numbers alone
 };
 
 /// A scene that a page simulates itself.
 struct Playground {
   std::string name;
   std::string scenario;               ///< its path among `files`
-  std::string level;                  ///< the default one
   bool has_rigid = false;             ///< whether a rigid ghost says more
   std::vector<std::string> settings;  ///< PATH=VALUE, always
   std::map<std::string, std::string> files;   ///< contents by path

@@ -21,8 +21,8 @@ for (const [link, body] of Object.entries(setup.bodies)) {
   module.ccall('limber_give_body', null, ['string', 'string'], [link, body]);
 }
 const status = module.ccall(
-  'limber_play', 'number', ['string', 'string', 'string'],
-  [setup.scenario, [...setup.settings, ...settings].join('\n'), '']);
+  'limber_play', 'number', ['string', 'string'],
+  [setup.scenario, [...setup.settings, ...settings].join('\n')]);
 const answer = module.UTF8ToString(module._limber_answer());
 if (status !== 0) {
   console.error(`error: ${answer}`);

@@ -89,7 +89,6 @@ void show(const ViewOptions& options) {
 }
 
 void play(const ViewOptions& options) {
-  view::find_playground();  // before bodies are reduced
   const scene::Scene scene = load_with_notes(options.play, {});
   const view::Playground playground =
       make_playground(scene, options.cache, make_progress_bar());

@@ -10,11 +10,14 @@
 #include <variant>
 
 #include "limber/dynamics/system/fidelity.hpp"
+#include "limber/flexbody/model/kept_modes.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
 #include "limber/scene/text/setting.hpp"
 
 namespace limber::app {
 namespace {
 
+constexpr double kSomeTumble = 1.0;  // of what does not turn [rad/s]
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 
 using Controls = std::vector<view::PlayControl>;
@@ -36,6 +39,10 @@ void add_load(const scene::LoadSpec& load, Controls& controls) {
     add_vector(load.name + ": force", path + ".force", "N", load.force,
                3.0 * load.force.norm(), controls);
   }
+  if (load.moment.norm() > 0.0) {
+    add_vector(load.name + ": moment", path + ".moment", "N m", load.moment,
+               3.0 * load.moment.norm(), controls);
+  }
   if (load.where.point && load.where.point->norm() > 0.0) {
     add_vector(load.name + ": place", path + ".point", "m", *load.where.point,
                load.where.point->norm(), controls);
@@ -56,7 +63,59 @@ void add_level(const scene::Scenario& scenario, Controls& controls) {
   if (std::ranges::find(choices, given) == choices.end()) {
     choices.push_back(given);
   }
-  controls.push_back({"level", "level", "", 0.0, 0.0, 0.0, choices, given});
+  controls.push_back(
+      {.label = "level", .path = "level", .choices = choices, .choice = given});
+}
+
+bool has_level(const scene::Scene& scene, dynamics::Fidelity level) {
+  return std::ranges::any_of(scene.robot.links, [&](const scene::Link& link) {
+    return link.flexible && scene.scenario.level_of(link.name) == level;
+  });
+}
+
+/// Of the body with most; others keep all that they have.
+void add_modes(const scene::Scene& scene,
+               const std::vector<scene::ReducedPieces>& bodies,
+               Controls& controls) {
+  int most = 0;
+  for (const scene::ReducedPieces& pieces : bodies) {
+    for (const auto& body : pieces) {
+      if (!flexbody::has_separable_modes(*body)) return;
+      most = std::max(most, body->mode_count());
+    }
+  }
+  if (most < 2 || has_level(scene, dynamics::Fidelity::nonlinear)) return;
+  controls.push_back({.label = "modes of a link, at most",
+                      .path = "modes",
+                      .value = double(most),
+                      .least = 1.0,
+                      .most = double(most),
+                      .is_whole = true});
+}
+
+/// One value for all links, at first the largest.
+void add_damping(const scene::Scene& scene, Controls& controls) {
+  double ratio = 0.0;
+  for (const scene::Link& link : scene.robot.links) {
+    if (!link.flexible) continue;
+    ratio = std::max(ratio, 0.5 * link.flexible->loss_factor);
+  }
+  controls.push_back({"damping ratio of links", "damping", "", ratio, 0.0,
+                      std::clamp(5.0 * ratio, 0.05, 0.5)});
+}
+
+void add_step(const dynamics::SimulationSettings& settings,
+              Controls& controls) {
+  if (settings.tolerance == scene::kToleranceToChoose) return;
+  if (settings.tolerance > 0.0) {
+    controls.push_back({"tolerance", "time.tolerance", "m", settings.tolerance,
+                        0.1 * settings.tolerance, 10.0 * settings.tolerance});
+  } else if (settings.step_changes.empty()) {
+    controls.push_back({"step", "time.step", "s", settings.step,
+                        0.2 * settings.step, 5.0 * settings.step});
+  } else {
+    controls.push_back({"steps, times", "steps", "", 1.0, 0.2, 5.0});
+  }
 }
 
 void add_contact(const scene::ContactSpec& contact, std::size_t number,
@@ -80,19 +139,23 @@ void add_start(const std::string& name, const std::string& path,
     add_vector(name + ": velocity", path + ".velocity", "m/s", start.velocity,
                3.0 * start.velocity.norm(), controls);
   }
-  if (start.angular_velocity.norm() > 0.0) {
+  if (start.velocity.norm() + start.angular_velocity.norm() > 0.0) {
+    const double spin = start.angular_velocity.norm();
     add_vector(name + ": tumble", path + ".angular_velocity", "rad/s",
-               start.angular_velocity, 3.0 * start.angular_velocity.norm(),
+               start.angular_velocity, spin > 0.0 ? 3.0 * spin : kSomeTumble,
                controls);
   }
 }
 
 }  // namespace
 
-std::vector<view::PlayControl> list_controls(const scene::Scene& scene) {
+std::vector<view::PlayControl> list_controls(
+    const scene::Scene& scene,
+    const std::vector<scene::ReducedPieces>& bodies) {
   const scene::Scenario& scenario = scene.scenario;
   Controls controls;
   for (const scene::LoadSpec& load : scenario.loads) add_load(load, controls);
+  add_start("base", "initial.base", scenario.base, controls);
   for (const scene::RobotSpec& robot : scenario.robots) {
     add_start(robot.name, "robot." + scene::quote_part(robot.name), robot.start,
               controls);
@@ -106,12 +169,12 @@ std::vector<view::PlayControl> list_controls(const scene::Scene& scene) {
   }
   const bool bends = std::ranges::any_of(
       scene.robot.links, [](const auto& link) { return bool(link.flexible); });
-  if (bends) add_level(scenario, controls);
-  const double step = scenario.settings.step;
-  if (scenario.settings.step_changes.empty()) {
-    controls.push_back(
-        {"step", "time.step", "s", step, 0.2 * step, 5.0 * step});
+  if (bends) {
+    add_level(scenario, controls);
+    add_modes(scene, bodies, controls);
+    add_damping(scene, controls);
   }
+  add_step(scenario.settings, controls);
   return controls;
 }
 

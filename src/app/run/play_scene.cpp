@@ -2,6 +2,8 @@
 #include "limber/app/run/play_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <map>
 #include <set>
@@ -25,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr InputKind kSceneFile = {"file of a scene", std::uint64_t{1} << 28};
 constexpr InputKind kFlatBody = {"flat body", std::uint64_t{1} << 31};
-constexpr double kMostOutputs = 200.0;
+constexpr std::size_t kMostOutputs = 200;
 
 /// Paths of the files that a scene reads, but for meshes of flexible links.
 std::set<fs::path> list_files(const scene::Scene& scene) {
@@ -80,12 +82,13 @@ void add_files(const scene::Scene& scene, view::Playground& playground) {
       place_of(fs::absolute(scene.scenario.file).lexically_normal());
 }
 
-void add_bodies(const scene::Scene& scene, const scene::Reductions& reductions,
+void add_bodies(const scene::Scene& scene,
+                const std::vector<scene::ReducedPieces>& bodies,
                 view::Playground& playground) {
   const ScratchFolder scratch(fs::temp_directory_path() / "limber-play-");
   std::map<const flexbody::ReducedBody*, std::string> written;
   for (std::size_t i = 0; i < scene.robot.links.size(); ++i) {
-    const scene::ReducedPieces& pieces = reductions.of_link[i];
+    const scene::ReducedPieces& pieces = bodies[i];
     if (pieces.empty()) continue;
     const std::string& link = scene.robot.links[i].name;
     if (pieces.size() > 1) {
@@ -117,8 +120,8 @@ void refuse_full(const scene::Scene& scene) {
   }
 }
 
-/// Whether the page's files are all that the scene needs: it is read from a
-/// copy of them alone.
+/// Whether the page's files are all that the scene needs, and its settings are
+/// possible: it is read from a copy of them alone.
 void check_whole(const view::Playground& playground) {
   const ScratchFolder scratch(fs::temp_directory_path() / "limber-play-");
   const auto place_of = [&](const std::string& name) {
@@ -128,8 +131,12 @@ void check_whole(const view::Playground& playground) {
     fs::create_directories(place_of(name).parent_path());
     write_whole(place_of(name), content);
   }
+  scene::Overrides overrides;
+  for (const std::string& setting : playground.settings) {
+    overrides.settings.push_back(scene::parse_setting(setting));
+  }
   try {
-    (void)scene::load_scene(place_of(playground.scenario));
+    (void)scene::load_scene(place_of(playground.scenario), overrides);
   } catch (const InputError& error) {
     throw InputError(fmt::format(
         "a page takes along the scenario, its robots and the meshes of their "
@@ -138,12 +145,21 @@ void check_whole(const view::Playground& playground) {
   }
 }
 
-/// A page shows no more outputs than it can draw at once.
+/// A page shows no more outputs than it can draw at once. Which are fewer of
+/// those that the file lists, or at an interval.
 std::vector<std::string> limit_outputs(const scene::Scene& scene) {
   const auto& times = scene.scenario.settings.output_times;
-  if (static_cast<double>(times.size()) <= kMostOutputs + 1.0) return {};
-  const double duration = times.back() - times.front();
-  return {fmt::format("time.output_interval={}", duration / kMostOutputs)};
+  if (times.size() <= kMostOutputs + 1) return {};
+  const auto file = toml::parse_file(scene.scenario.file.string());
+  if (!file["time"]["output_times"]) {
+    const double duration = times.back() - times.front();
+    return {fmt::format("time.output_interval={}", duration / kMostOutputs)};
+  }
+  std::vector<double> kept;
+  for (std::size_t i = 0; i <= kMostOutputs; ++i) {
+    kept.push_back(times[i * (times.size() - 1) / kMostOutputs]);
+  }
+  return {fmt::format("time.output_times=[{}]", fmt::join(kept, ", "))};
 }
 
 }  // namespace
@@ -154,19 +170,19 @@ view::Playground make_playground(const scene::Scene& scene,
   refuse_full(scene);
   view::Playground playground;
   playground.name = scene.scenario.name;
-  playground.level = to_string(scene.scenario.fidelity);
   playground.settings = limit_outputs(scene);
   for (const scene::Setting& setting : scene.overrides.settings) {
     if (setting.value) {
       playground.settings.push_back(setting.path + "=" + *setting.value);
     }
   }
-  playground.controls = list_controls(scene);
   add_files(scene, playground);
   check_whole(playground);
-  add_bodies(scene,
-             scene::find_reductions(scene, make_reducer(progress), cache),
-             playground);
+  view::find_playground();  // before bodies are reduced
+  const auto bodies =
+      scene::find_reductions(scene, make_reducer(progress), cache).of_link;
+  add_bodies(scene, bodies, playground);
+  playground.controls = list_controls(scene, bodies);
   playground.has_rigid = !playground.bodies.empty();
   return playground;
 }

@@ -9,7 +9,7 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kRoundoff = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kWorkRoundoff = 16.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -134,7 +134,8 @@ double SuppliedWork::find_correction(const Path& first, const Path& last,
       (last.force - first.force) * (last.rate - first.rate) * h / 12.0;
   const double power =
       0.5 * h * (first.force * first.rate + last.force * last.rate);
-  const double noise = kRoundoff * std::abs(mean) * (first.size + last.size);
+  const double noise =
+      kWorkRoundoff * std::abs(mean) * (first.size + last.size);
   const double correction = path - power;
   return std::abs(correction) > noise ? correction : 0.0;  // 0 if unknown
 }

@@ -20,7 +20,7 @@ constexpr double kSame = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr int kLeastSteps = 16;
 
 // Largest number of steps: shorter ones are below the resolution of the time.
-constexpr double kMostSteps = 1e12;
+constexpr double kMostStepsOfRun = 1e12;
 
 // Largest number of samples of one controller, each of which is a breakpoint;
 // and their least distance, relative to the resolution of the time.
@@ -29,7 +29,7 @@ constexpr double kFewestSame = 100.0;
 
 void check_step_count(const SimulationSettings& settings, double start) {
   const double count = count_steps(settings, start, settings.end_time);
-  if (count <= kMostSteps) return;
+  if (count <= kMostStepsOfRun) return;
   double shortest = settings.step;
   for (const StepChange& change : settings.step_changes) {
     shortest = std::min(shortest, change.step);
@@ -37,7 +37,7 @@ void check_step_count(const SimulationSettings& settings, double start) {
   throw InputError(
       fmt::format("step {:.3g} s takes {:.3g} steps until {:g} s; at most {:g} "
                   "can be taken",
-                  shortest, count, settings.end_time, kMostSteps));
+                  shortest, count, settings.end_time, kMostStepsOfRun));
 }
 
 // Breakpoints within pulses that steps would not resolve. Steps to a tolerance

@@ -20,7 +20,7 @@ namespace limber::dynamics {
 namespace {
 
 // Largest number of parts of a given step.
-constexpr double kMostParts = 1e3;
+constexpr double kMostPartsOfStep = 1e3;
 // Preferred fraction of the longest stable step [-]. Runge-Kutta then
 // dissipates 4e-6 of the fastest motion's energy a step.
 constexpr double kAccurateShare = 0.1;
@@ -155,7 +155,7 @@ SimulationSettings limit_central(const SystemModel& model,
   const double step = find_longest_step(asked);
   statistics.stable_step = find_stable_step(model, state);
   const double longest = kStableShare * statistics.stable_step;
-  if (step > kMostParts * longest) {
+  if (step > kMostPartsOfStep * longest) {
     throw InputError(describe(model, state, asked.integrator, step, longest) +
                      kAdvice);
   }
@@ -173,14 +173,15 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
   statistics.stable_step = find_stable_step(model, state, asked.integrator);
   const double longest = kStableShare * statistics.stable_step;
   if (!(step > longest)) return asked;
-  if (step > kMostParts * longest) {
+  if (step > kMostPartsOfStep * longest) {
     statistics.warnings.push_back(
         describe(model, state, asked.integrator, step, longest) +
         "steps are not divided so often, and may blow up; " + kAdvice);
     return asked;
   }
   const double accurate = kAccurateShare * statistics.stable_step;
-  const double taken = std::min(longest, std::max(accurate, step / kMostParts));
+  const double taken =
+      std::min(longest, std::max(accurate, step / kMostPartsOfStep));
   statistics.warnings.push_back(fmt::format(
       "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
       "holds it: steps of {:.3g} s are divided, into {:.0f} parts",

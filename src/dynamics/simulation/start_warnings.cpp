@@ -24,7 +24,7 @@ namespace {
 constexpr double kOnStop = 1e-9;
 // Fixed steps in a period: with 8 the mean force in a step errs by up to 5 % of
 // the amplitude, with 16 by 1.3 %.
-constexpr double kFewestSteps = 8.0;
+constexpr double kCoarseSteps = 8.0;
 constexpr double kGoodSteps = 16.0;
 
 // What an excess along a coordinate z is judged by.
@@ -152,7 +152,7 @@ void add_period_warning(const SystemModel& model,
   if (settings.tolerance > 0.0) return;
   const auto oscillations = find_oscillations(model);
   const Oscillation* worst = nullptr;
-  double fewest = kFewestSteps;
+  double fewest = kCoarseSteps;
   double longest = 0.0;
   for (const Oscillation& oscillation : oscillations) {
     const double from = std::max(oscillation.from, start);

@@ -6,13 +6,41 @@ import { Controls } from './play_controls.js';
 import { workPlayground } from './play_worker.js';
 
 const find = (id) => document.getElementById(id);
-const kLevel = 'level';  // of a control, beside paths of settings
+const kLevel = 'level';  // path of a control
+const kPatience = 1.5;  // after which a run that is out of date is ended [s]
 
-function startWorker(setup) {
-  const text = `${setup.glue}\n(${workPlayground.toString()})();`;
-  const worker = new Worker(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })));
-  worker.postMessage({ wasm: setup.module, files: setup.files, bodies: setup.bodies });
-  return worker;
+// The module in its worker. What it is asked while it works waits for its answer, or, when
+// that takes long, a new worker begins with it.
+class Dynamics {
+  constructor(setup, hear) {
+    this.setup = setup;
+    this.hear = hear;
+    const text = `${setup.glue}\n(${workPlayground.toString()})();`;
+    this.script = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
+    this.start();
+  }
+
+  start() {
+    const { setup } = this;
+    this.worker?.terminate();
+    const worker = new Worker(this.script);
+    const isCurrent = () => worker === this.worker;
+    worker.onmessage = ({ data }) => isCurrent() && this.hear(data);
+    worker.onerror = (event) => isCurrent() &&
+      this.hear({ problem: `The dynamics cannot be run here: ${event.message}`, isBroken: true });
+    worker.postMessage({ wasm: setup.module, files: setup.files, bodies: setup.bodies });
+    this.worker = worker;
+    this.asked = null;
+  }
+
+  ask(runs) {
+    this.asked = performance.now();
+    this.worker.postMessage({ scenario: this.setup.scenario, runs });
+  }
+
+  get waited() {
+    return this.asked === null ? 0 : (performance.now() - this.asked) / 1000;
+  }
 }
 
 // What a visitor chose in the last picture.
@@ -61,13 +89,16 @@ class Frames {
     const { limber } = frame.contentWindow;
     if (limber) giveLook(limber, takeLook(this.current?.contentWindow.limber));
     frame.style.visibility = '';
+    // Browsers keep few drawings in three dimensions alive.
+    this.current?.contentWindow.limber?.view.renderer.dispose();
+    this.current?.contentWindow.limber?.view.renderer.forceContextLoss();
     this.current?.remove();
     this.current = frame;
     return limber;
   }
 }
 
-function showPeaks(results) {
+function showPeaks(results, levels) {
   const rows = results[0].probes.filter((probe) => probe.peak).map((probe) => {
     const row = document.createElement('tr');
     const name = Object.assign(document.createElement('th'), { textContent: probe.name });
@@ -81,7 +112,7 @@ function showPeaks(results) {
     return row;
   });
   const head = document.createElement('tr');
-  for (const text of ['Peak', 'flexible', 'rigid'].slice(0, results.length + 1)) {
+  for (const text of ['Peak', ...levels]) {
     head.append(Object.assign(document.createElement('th'), { textContent: text }));
   }
   find('peaks').replaceChildren(head, ...rows);
@@ -90,8 +121,9 @@ function showPeaks(results) {
 // Rows of `energy`: time, total, elastic, work, dissipated since the start.
 function showEnergy(energy) {
   const [first] = energy;
-  const most = Math.max(...energy.flatMap(([, total, , work]) => [Math.abs(total), Math.abs(work)])) || 1;
-  const least = Math.min(0, ...energy.flatMap(([, total, , work]) => [total, work]));
+  const drawn = energy.flatMap(([, total, , work]) => [total, work]);
+  const most = Math.max(...drawn.map(Math.abs)) || 1;
+  const least = Math.min(0, ...drawn);
   const end = energy[energy.length - 1][0];
   const trace = (column, name) => {
     const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
@@ -110,12 +142,33 @@ function showEnergy(energy) {
     `total (line) and work (dashed), at most ${format(most, 'J')}; open ${format(open, 'J')}`;
 }
 
-function showPace([answer], seconds) {
+function describeStep({ stepping, steps }) {
+  return `${((1e6 * stepping) / steps).toFixed(1)} \u00b5s`;
+}
+
+function showPace(answers, levels, seconds) {
+  const [answer, rigid] = answers;
   const ratio = answer.simulated / answer.stepping;
+  const pace = ratio >= 1
+    ? `${ratio.toFixed(1)} \u00d7 faster than real time` : `${(1 / ratio).toFixed(1)} \u00d7 slower than real time`;
   find('pace').textContent =
-    `${answer.steps} steps of ${((1e6 * answer.stepping) / answer.steps).toFixed(1)} \u00b5s, ` +
-    `${answer.modes} modes: ${ratio >= 1 ? `${ratio.toFixed(1)} \u00d7 real time` : `${(1 / ratio).toFixed(1)} \u00d7 slower than real time`}` +
-    `; picture after ${seconds.toFixed(2)} s`;
+    `${pace}: ${answer.simulated} s in ${answer.stepping.toFixed(2)} s, ${answer.steps} steps of ` +
+    `${describeStep(answer)}${rigid ? ` (${levels[1]}: ${describeStep(rigid)})` : ''}, ` +
+    `${answer.modes} modes; picture after ${seconds.toFixed(2)} s`;
+}
+
+function list(id, texts) {
+  find(id).replaceChildren(...texts.map(
+    (text) => Object.assign(document.createElement('li'), { textContent: text })));
+}
+
+function copyLink(button) {
+  const say = (text) => {
+    button.textContent = text;
+    setTimeout(() => (button.textContent = 'Copy a link to these settings'), 2000);
+  };
+  Promise.resolve(navigator.clipboard?.writeText(location.href) ?? Promise.reject()).then(
+    () => say('Copied'), () => say('Not allowed: copy the address'));
 }
 
 async function start() {
@@ -125,59 +178,72 @@ async function start() {
   document.title = `${setup.name} \u2013 Limber`;
   find('title').textContent = setup.name;
   const frames = new Frames(find('frames'), setup.view);
-  const worker = startWorker(setup);
-  let isBusy = true;  // until it is loaded
-  let isStale = true;
-  let asked = 0;
+  const state = { isBusy: true, isStale: true, levels: [], shown: 0 };  // busy until it is loaded
 
-  const ask = () => {
-    isStale = true;
-    history.replaceState(null, '', `#${controls.toHash()}`);
-    if (isBusy) return;
-    isBusy = true;
-    isStale = false;
-    asked = performance.now();
+  const takeRuns = () => {
     const settings = [
-      ...setup.settings,
-      ...controls.changed().filter(([path]) => path !== kLevel).map(([path, value]) => `${path}=${value}`),
-    ];
-    const level = controls.get(kLevel) ?? '';
-    const runs = [{ level: level === setup.level ? '' : level, settings }];
-    if (setup.hasRigid && level !== 'rigid') runs.push({ level: 'rigid', settings });
-    worker.postMessage({ scenario: setup.scenario, runs });
+      ...setup.settings, ...controls.changed().map(([path, value]) => `${path}=${value}`)];
+    const level = controls.get(kLevel);
+    const runs = [settings];
+    state.levels = [level ?? ''];
+    if (setup.hasRigid && level !== 'rigid') {
+      runs.push([...settings.filter((text) => !text.startsWith(`${kLevel}=`)), `${kLevel}=rigid`]);
+      state.levels.push('rigid');
+    }
+    return runs;
   };
-  const controls = new Controls(find('controls'), setup.controls, ask);
-  controls.readHash(location.hash);
-  find('reset').onclick = (event) => {
-    event.preventDefault();
-    controls.reset();
+  const ask = () => {
+    state.isStale = true;
+    history.replaceState(null, '', `#${controls.toHash()}`);
+    if (state.isBusy && dynamics.waited > kPatience) dynamics.start();
+    if (state.isBusy) return;
+    state.isBusy = true;
+    state.isStale = false;
+    dynamics.ask(takeRuns());
+  };
+  const change = () => {
+    list('refused', []);
     ask();
   };
-  find('link').onclick = () => navigator.clipboard?.writeText(location.href);
+  const readHash = () => list('refused', controls.readHash(location.hash));
+  const controls = new Controls(find('controls'), setup.controls, change);
+  find('reset').onclick = () => {
+    controls.reset();
+    change();
+  };
+  find('link').onclick = () => copyLink(find('link'));
   addEventListener('hashchange', () => {
     controls.reset();
-    controls.readHash(location.hash);
+    readHash();
     ask();
   });
 
-  worker.onmessage = async ({ data }) => {
+  const show = async ({ answers, bytes }) => {
+    const { waited } = dynamics;
+    const { levels } = state;
+    dynamics.asked = null;
+    const limber = await frames.show(bytes);
+    showPace(answers, levels, waited);
+    showEnergy(answers[0].energy);
+    list('notices', answers[0].warnings);
+    if (limber) showPeaks(limber.results, levels);
+    state.shown += 1;
+  };
+  const dynamics = new Dynamics(setup, async (data) => {
+    if (data.progress !== undefined) {
+      find('pace').textContent =
+        `Simulating: ${Math.round(100 * data.progress)} % after ${dynamics.waited.toFixed(1)} s`;
+      return;
+    }
     find('problem').hidden = !data.problem;
     find('problem').textContent = data.problem ?? '';
-    if (data.answers) {
-      const limber = await frames.show(data.bytes);
-      showPace(data.answers, (performance.now() - asked) / 1000);
-      showEnergy(data.answers[0].energy);
-      if (limber) showPeaks(limber.results);
-      window.limberPlay.shown += 1;
-    }
-    isBusy = data.isBroken === true;
-    if (isStale) ask();
-  };
-  worker.onerror = (event) => {
-    find('problem').hidden = false;
-    find('problem').textContent = `The dynamics cannot be run here: ${event.message}`;
-  };
-  window.limberPlay = { controls, frames, ask, shown: 0 };  // for tests, and consoles
+    if (data.problem) find('pace').textContent = '';
+    if (data.answers) await show(data);
+    state.isBusy = data.isBroken === true;
+    if (state.isStale) ask();
+  });
+  readHash();
+  window.limberPlay = { controls, frames, state, dynamics };  // for tests, and consoles
 }
 
 start().catch((error) => {

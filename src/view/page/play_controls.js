@@ -7,7 +7,8 @@ function makeSlider(control, change) {
   const name = Object.assign(document.createElement('span'), { textContent: control.label });
   const shown = document.createElement('output');
   const input = Object.assign(document.createElement('input'), {
-    type: 'range', min: control.min, max: control.max, step: 'any', name: control.path,
+    type: 'range', min: control.min, max: control.max, name: control.path,
+    step: control.whole ? 1 : 'any',
   });
   const show = () => {
     const value = Number(Number(input.value).toPrecision(kDigits));
@@ -26,6 +27,15 @@ function makeSlider(control, change) {
       input.value = value;
       show();
     },
+    // A text for what is not taken as it is.
+    wish(text) {
+      const value = text.trim() === '' ? NaN : Number(text);
+      if (!Number.isFinite(value)) return `it is no number`;
+      this.write(value);
+      if (value < control.min) return `the least is ${control.min}, which is taken`;
+      if (value > control.max) return `the most is ${control.max}, which is taken`;
+      return control.whole && value !== Math.round(value) ? 'it is no whole number, and rounded' : '';
+    },
   };
 }
 
@@ -39,6 +49,11 @@ function makeChoice(control, change) {
     label,
     read: () => select.value,
     write: (value) => (select.value = value),
+    wish(text) {
+      if (!control.choices.includes(text)) return `the choices are ${control.choices.join(', ')}`;
+      select.value = text;
+      return '';
+    },
   };
 }
 
@@ -75,10 +90,12 @@ export class Controls {
     return new URLSearchParams(this.changed()).toString();
   }
 
+  /// @returns texts for what is not taken as it is
   readHash(hash) {
-    const wishes = new URLSearchParams(hash.replace(/^#/, ''));
-    for (const { control, write } of this.rows) {
-      if (wishes.has(control.path)) write(wishes.get(control.path));
-    }
+    return [...new URLSearchParams(hash.replace(/^#/, ''))].flatMap(([path, text]) => {
+      const row = this.rows.find(({ control }) => control.path === path);
+      const refused = row ? row.wish(text) : 'this page has no such value';
+      return refused ? [`${path} = ${text} of the link: ${refused}`] : [];
+    });
   }
 }

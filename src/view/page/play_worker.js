@@ -3,7 +3,17 @@
 /* global LimberModule */
 
 export function workPlayground() {
+  const kPause = 100;  // between reports [ms]
   let module;
+  let reported = 0;
+
+  // Called by the module.
+  globalThis.LimberProgress = (fraction) => {
+    const now = performance.now();
+    if (now < reported + kPause) return;
+    reported = now;
+    postMessage({ progress: fraction });
+  };
 
   function decode(base64) {
     return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -23,13 +33,13 @@ export function workPlayground() {
 
   const readAnswer = () => module.UTF8ToString(module._limber_answer());
 
-  // Each of `runs` is { level, settings }; the first is shown, others are its ghosts.
+  // Each of `runs` is a list of settings; the first is shown, others are its ghosts.
   function play({ scenario, runs }) {
     const answers = [];
-    for (const { level, settings } of runs) {
+    reported = performance.now() + kPause;  // short runs need no reports
+    for (const settings of runs) {
       const status = module.ccall(
-        'limber_play', 'number', ['string', 'string', 'string'],
-        [scenario, settings.join('\n'), level]);
+        'limber_play', 'number', ['string', 'string'], [scenario, settings.join('\n')]);
       if (status !== 0) {
         module._limber_forget();
         return { problem: readAnswer() };
