@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
-"""The playground's module under node against the command: check.py LIMBER NODE FOLDER SCENARIO...
-The states of `limber run` and of the page of `limber view --play` must be equal to the bit, at all
-outputs: scenes without turned mounts, as the last bit of a sine is that of the C library. Ends with 77, and
-says why, where the module was not built (scripts/playground)."""
+"""Pages of `limber view --play` against the command: check.py bits|page LIMBER NODE NODE_MODULES FOLDER
+SCENARIO...
+
+bits: the states of `limber run` and of the page's module under node must be equal to the bit, at all
+outputs: scenes without turned mounts, as the last bit of a sine is that of the C library.
+page: in headless Chromium every control must change the answer (drive_play.mjs).
+Ends with 77, and says why, where the module was not built (scripts/playground) or Chromium is missing."""
 import base64
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import zlib
@@ -21,31 +25,57 @@ def read_setup(page):
     return json.loads(zlib.decompress(base64.b64decode(text[start:text.index("<", start)])))
 
 
-def check(limber, node, folder, scenario):
+def make_page(limber, folder, scenario):
+    """The page and its setup; results and summary.json of the command with its settings."""
     folder.mkdir(parents=True, exist_ok=True)
-    page, setup_file = folder / "page.html", folder / "setup.json"
+    page = folder / "page.html"
     subprocess.run([limber, "view", "--play", scenario, "-o", page], check=True)
     setup = read_setup(page)
-    setup_file.write_text(json.dumps(setup))
     options = [word for setting in setup["settings"] for word in ("--set", setting)]
     subprocess.run([limber, "-q", "run", scenario, "--out", folder / "native", *options], check=True)
+    return page, setup
+
+
+def check_bits(limber, node, folder, scenario):
+    _, setup = make_page(limber, folder, scenario)
+    setup_file = folder / "setup.json"
+    setup_file.write_text(json.dumps(setup))
     subprocess.run([node, "--no-experimental-fetch", HERE / "play.mjs", setup_file,
                     folder / "played"], check=True)
     return subprocess.run([sys.executable, HERE / "compare.py", folder / "native/results.h5",
                            folder / "played"]).returncode
 
 
-def main(limber, node, folder, *scenarios):
+def check_page(limber, node, modules, folder, scenario):
+    page, _ = make_page(limber, folder, scenario)
+    return subprocess.run([node, HERE / "drive_play.mjs", modules, page, folder / "native/summary.json",
+                           find_chromium(), folder]).returncode
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(SKIPPED)
+
+
+def find_chromium():
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    return chromium or skip("Chromium is not installed; scripts/install-deps --with-chromium")
+
+
+def main(what, limber, node, modules, folder, *scenarios):
     module = pathlib.Path(limber).parent / "playground.wasm"
     if not module.exists():
-        print(f"skipped: {module} is not there; scripts/playground builds it")
-        sys.exit(SKIPPED)
-    unequal = 0
+        skip(f"{module} is not there; scripts/playground builds it")
+    if what == "page" and not (pathlib.Path(modules) / "playwright-core").is_dir():
+        skip("npm could not fetch the packages of the page")
+    failed = 0
     for scenario in scenarios:
         name = pathlib.Path(scenario).stem
         print(f"{name}:", flush=True)
-        unequal += check(limber, node, pathlib.Path(folder) / name, scenario)
-    sys.exit(1 if unequal else 0)
+        at = pathlib.Path(folder) / name
+        failed += (check_bits(limber, node, at, scenario) if what == "bits"
+                   else check_page(limber, node, modules, at, scenario))
+    sys.exit(1 if failed else 0)
 
 
 main(*sys.argv[1:])

@@ -227,6 +227,7 @@ async function start() {
     showEnergy(answers[0].energy);
     list('notices', answers[0].warnings);
     if (limber) showPeaks(limber.results, levels);
+    state.answers = answers;
     state.shown += 1;
   };
   const dynamics = new Dynamics(setup, async (data) => {
