@@ -9,13 +9,13 @@ import shutil
 PART = re.compile(r"(?P<code>^```.*?^```$|`[^`\n]+`)"
                   r"|(?P<link>\]\((?P<target>[^()\s]+)\))"
                   r"|\[(?P<cite>@[\w@;, .§-]+)\]"
-                  r"|<!-- in motion: (?P<motion>\w+) -->", re.MULTILINE | re.DOTALL)
+                  r"|<!-- (?P<kind>in motion|to play): (?P<shown>\w+) -->", re.MULTILINE | re.DOTALL)
 LITERATURE = "docs/references" + ".md"  # made, as all below: no page of the sources
 REFERENCE = "docs/reference"
 PLAIN = (".png", ".svg", ".schema.json")  # files that the site has as they are
 LANGUAGES = {".toml": "toml", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".urdf": "xml",
              ".json": "json", ".cff": "yaml"}
-MOTION = """<div class="motion"><iframe src="{page}" title="{name} in motion" loading="lazy"></iframe>
+MOTION = """<div class="motion"><iframe src="{page}" title="{name} {kind}" loading="lazy"></iframe>
 <a href="{page}">Open it alone</a></div>
 """
 
@@ -25,7 +25,6 @@ class Tree:
 
     def __init__(self, source, folder):
         self.source, self.folder = source, folder
-        self.has_motion = False
 
     def add(self, name, text):
         """A page that is made, not of the sources."""
@@ -33,9 +32,8 @@ class Tree:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
 
-    def add_reached(self, first, has_motion):
+    def add_reached(self, first):
         """All pages that links reach from the first, and files that they show."""
-        self.has_motion = has_motion
         ahead, seen = [pathlib.Path(first)], set()
         while ahead:
             page = ahead.pop()
@@ -69,8 +67,8 @@ class Tree:
         def replace(match):
             if code := match["code"]:
                 return title_block(code)
-            if name := match["motion"]:
-                return self._show_motion(page, name)
+            if name := match["shown"]:
+                return self._show_motion(page, match["kind"], name)
             if cite := match["cite"]:
                 return self._cite(page, cite)
             return f"]({self._follow(page, match['target'], ahead)})"
@@ -79,10 +77,12 @@ class Tree:
     def _relate(self, page, target):
         return os.path.relpath(target, page.parent)
 
-    def _show_motion(self, page, name):
-        if not self.has_motion:
+    def _show_motion(self, page, kind, name):
+        """A page that motion.py made, if it did."""
+        file = pathlib.Path(kind.split()[1]) / f"{name}.html"
+        if not (self.folder / file).exists():
             return ""
-        return MOTION.format(name=name, page=self._relate(page, f"motion/{name}.html"))
+        return MOTION.format(name=name, kind=kind, page=self._relate(page, file))
 
     def _cite(self, page, cite):
         key = re.match(r"@(\w+)", cite).group(1)

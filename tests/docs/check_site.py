@@ -40,7 +40,7 @@ class Page(html.parser.HTMLParser):
 
 def read_pages(site):
     """Those of the site; the pages of limber view, which are whole in themselves, are not among them."""
-    return {file: Page(file) for file in sorted(site.rglob("*.html")) if file.parent.name != "motion"}
+    return {file: Page(file) for file in sorted(site.rglob("*.html")) if file.parent.name not in ("motion", "play")}
 
 
 def find_lost(pages, site):
