@@ -20,6 +20,12 @@
 #include "limber/view/page_data.hpp"
 #include "limber/view/recording.hpp"
 
+// To the worker, which may have no use for it. Not in the unnamed namespace:
+// the linker reads it by its name.
+EM_JS(void, limber_report_progress, (double fraction), {
+  if (globalThis.LimberProgress) globalThis.LimberProgress(fraction);
+});
+
 namespace {
 
 using namespace limber;
@@ -39,11 +45,6 @@ runs::Reductions refuse_meshes() {
   return {{"", refuse}, "", {}};
 }
 
-// The page may be told, and may not: tests have none.
-EM_JS(void, report_progress, (double fraction), {
-  if (typeof LimberProgress == = 'function') LimberProgress(fraction);
-});
-
 nlohmann::json describe_energy(const runs::Run& run) {
   nlohmann::json rows = nlohmann::json::array();
   const auto& history = run.history;
@@ -62,7 +63,7 @@ void play(const std::string& file, const std::string& settings) {
   const runs::Run run = runs::simulate_scene(
       scene, {.reductions = refuse_meshes(),
               .progress = [](std::string_view, double fraction) {
-                report_progress(fraction);
+                limber_report_progress(fraction);
               }});
   results::write_results(kResults, run.built.model, run.history, &run.scenery,
                          &run.record);
