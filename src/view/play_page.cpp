@@ -50,10 +50,10 @@ nlohmann::json describe_control(const PlayControl& control) {
             {"value", control.choice},
             {"choices", control.choices}};
   }
-  return {{"label", control.label},   {"path", control.path},
-          {"unit", control.unit},     {"value", control.value},
-          {"min", control.least},     {"max", control.most},
-          {"whole", control.is_whole}};
+  return {{"label", control.label},    {"path", control.path},
+          {"unit", control.unit},      {"value", control.value},
+          {"min", control.least},      {"max", control.most},
+          {"whole", control.is_whole}, {"vector", control.vector}};
 }
 
 nlohmann::json describe_playground(const Playground& playground) {

@@ -12,6 +12,9 @@ namespace limber::view {
 struct PlayControl {
   std::string label;
   std::string path;  ///< as runs::parse_play_settings takes it
+  /// The path without the index at its end: all components are set as one, as
+  /// the file may have none. Empty: a value of its own.
+  std::string vector = {};
   std::string unit = {};
   double value = 0.0, least = 0.0, most = 0.0;  ///< of a slider [`unit`]
   std::vector<std::string> choices = {};        ///< of a choice

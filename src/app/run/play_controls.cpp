@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -22,15 +23,40 @@ constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 
 using Controls = std::vector<view::PlayControl>;
 
+/// At least `value`: 1, 2 or 5 times a power of ten.
+double round_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= value) return digit * power;
+  }
+  return 10.0 * power;
+}
+
 /// A slider for each component, on both sides of zero.
 void add_vector(const std::string& label, const std::string& path,
                 const std::string& unit, const Vector3& value, double most,
                 Controls& controls) {
   for (int c = 0; c < 3; ++c) {
-    controls.push_back({fmt::format("{} {}", label, kAxes[std::size_t(c)]),
-                        fmt::format("{}.{}", path, c), unit, value[c], -most,
-                        most});
+    controls.push_back(
+        {.label = fmt::format("{} {}", label, kAxes[std::size_t(c)]),
+         .path = fmt::format("{}.{}", path, c),
+         .vector = path,
+         .unit = unit,
+         .value = value[c],
+         .least = -round_up(most),
+         .most = round_up(most)});
   }
+}
+
+void add_number(const std::string& label, const std::string& path,
+                const std::string& unit, double value, double least,
+                double most, Controls& controls) {
+  controls.push_back({.label = label,
+                      .path = path,
+                      .unit = unit,
+                      .value = value,
+                      .least = least,
+                      .most = most});
 }
 
 void add_load(const scene::LoadSpec& load, Controls& controls) {
@@ -48,9 +74,9 @@ void add_load(const scene::LoadSpec& load, Controls& controls) {
                load.where.point->norm(), controls);
   }
   if (const auto* pulse = std::get_if<dynamics::Pulse>(&load.time)) {
-    controls.push_back({load.name + ": duration", path + ".time.duration", "s",
-                        pulse->duration, 0.1 * pulse->duration,
-                        5.0 * pulse->duration});
+    add_number(load.name + ": duration", path + ".time.duration", "s",
+               pulse->duration, 0.1 * pulse->duration, 5.0 * pulse->duration,
+               controls);
   }
 }
 
@@ -100,21 +126,23 @@ void add_damping(const scene::Scene& scene, Controls& controls) {
     if (!link.flexible) continue;
     ratio = std::max(ratio, 0.5 * link.flexible->loss_factor);
   }
-  controls.push_back({"damping ratio of links", "damping", "", ratio, 0.0,
-                      std::clamp(5.0 * ratio, 0.05, 0.5)});
+  add_number("damping ratio of links", "damping", "", ratio, 0.0,
+             std::clamp(5.0 * ratio, 0.05, 0.5), controls);
 }
 
 void add_step(const dynamics::SimulationSettings& settings,
               Controls& controls) {
   if (settings.tolerance == scene::kToleranceToChoose) return;
-  if (settings.tolerance > 0.0) {
-    controls.push_back({"tolerance", "time.tolerance", "m", settings.tolerance,
-                        0.1 * settings.tolerance, 10.0 * settings.tolerance});
+  const double step = settings.step;
+  const double tolerance = settings.tolerance;
+  if (tolerance > 0.0) {
+    add_number("tolerance", "time.tolerance", "m", tolerance, 0.1 * tolerance,
+               10.0 * tolerance, controls);
   } else if (settings.step_changes.empty()) {
-    controls.push_back({"step", "time.step", "s", settings.step,
-                        0.2 * settings.step, 5.0 * settings.step});
+    add_number("step", "time.step", "s", step, 0.2 * step, 5.0 * step,
+               controls);
   } else {
-    controls.push_back({"steps, times", "steps", "", 1.0, 0.2, 5.0});
+    add_number("steps, times", "steps", "", 1.0, 0.2, 5.0, controls);
   }
 }
 
@@ -124,12 +152,13 @@ void add_contact(const scene::ContactSpec& contact, std::size_t number,
       fmt::format("{} on {}", contact.between[0], contact.between[1]);
   const std::string path = fmt::format("contact.{}", number);
   if (contact.options.restitution) {
-    controls.push_back({label + ": restitution", path + ".restitution", "",
-                        *contact.options.restitution, 0.0, 1.0});
+    add_number(label + ": restitution", path + ".restitution", "",
+               *contact.options.restitution, 0.0, 1.0, controls);
   }
   if (contact.options.friction) {
-    controls.push_back({label + ": friction", path + ".friction", "",
-                        *contact.options.friction, 0.0, 1.5});
+    add_number(label + ": friction", path + ".friction", "",
+               *contact.options.friction, 0.0,
+               std::max(1.5, *contact.options.friction), controls);
   }
 }
 

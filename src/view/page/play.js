@@ -181,8 +181,7 @@ async function start() {
   const state = { isBusy: true, isStale: true, levels: [], shown: 0 };  // busy until it is loaded
 
   const takeRuns = () => {
-    const settings = [
-      ...setup.settings, ...controls.changed().map(([path, value]) => `${path}=${value}`)];
+    const settings = [...setup.settings, ...controls.settings()];
     const level = controls.get(kLevel);
     const runs = [settings];
     state.levels = [level ?? ''];

@@ -82,6 +82,23 @@ export class Controls {
     });
   }
 
+  /// Lines PATH=VALUE of what differs; vectors as a whole.
+  settings() {
+    const lines = new Map();
+    for (const [path, value] of this.changed()) {
+      const { vector } = this.rows.find(({ control }) => control.path === path).control;
+      if (vector) lines.set(vector, `[${this.components(vector).join(', ')}]`);
+      else lines.set(path, value);
+    }
+    return [...lines].map(([path, value]) => `${path}=${value}`);
+  }
+
+  components(vector) {
+    const moved = new Map(this.changed());
+    return this.rows.filter(({ control }) => control.vector === vector)
+      .map(({ control }) => moved.get(control.path) ?? control.value);
+  }
+
   get(path) {
     return this.rows.find(({ control }) => control.path === path)?.read();
   }
