@@ -43,8 +43,8 @@ void add_vector(const std::string& label, const std::string& path,
          .vector = path,
          .unit = unit,
          .value = value[c],
-         .least = -round_up(most),
-         .most = round_up(most)});
+         .least = -most,
+         .most = most});
   }
 }
 
@@ -63,11 +63,11 @@ void add_load(const scene::LoadSpec& load, Controls& controls) {
   const std::string path = "load." + scene::quote_part(load.name);
   if (load.force.norm() > 0.0) {
     add_vector(load.name + ": force", path + ".force", "N", load.force,
-               3.0 * load.force.norm(), controls);
+               round_up(3.0 * load.force.norm()), controls);
   }
   if (load.moment.norm() > 0.0) {
     add_vector(load.name + ": moment", path + ".moment", "N m", load.moment,
-               3.0 * load.moment.norm(), controls);
+               round_up(3.0 * load.moment.norm()), controls);
   }
   if (load.where.point && load.where.point->norm() > 0.0) {
     add_vector(load.name + ": place", path + ".point", "m", *load.where.point,
@@ -166,13 +166,13 @@ void add_start(const std::string& name, const std::string& path,
                const scene::BodyStart& start, Controls& controls) {
   if (start.velocity.norm() > 0.0) {
     add_vector(name + ": velocity", path + ".velocity", "m/s", start.velocity,
-               3.0 * start.velocity.norm(), controls);
+               round_up(3.0 * start.velocity.norm()), controls);
   }
   if (start.velocity.norm() + start.angular_velocity.norm() > 0.0) {
     const double spin = start.angular_velocity.norm();
     add_vector(name + ": tumble", path + ".angular_velocity", "rad/s",
-               start.angular_velocity, spin > 0.0 ? 3.0 * spin : kSomeTumble,
-               controls);
+               start.angular_velocity,
+               spin > 0.0 ? round_up(3.0 * spin) : kSomeTumble, controls);
   }
 }
 
