@@ -51,6 +51,7 @@ set(public_headers
   results/motion_error.hpp
   results/probes_csv.hpp
   results/results_file.hpp
+  runs/batch.hpp
   runs/run.hpp
   scene/build/build_system.hpp
   scene/build/load_scene.hpp)

@@ -25,6 +25,7 @@ from ._core import (
     SystemState, Table, TableSignal, TransmissionIndex, __version__, build_id,
     calc_energy, explain, find_equilibrium, find_frame_motion, find_natural_frequencies,
     make_shaper, make_state, read_body)
+from .batch import Batch
 from .body import reduce
 from .errors import (
     ContractError, InputError, Interrupted, LimberWarning, NumericalError)
@@ -35,5 +36,5 @@ from .simulation import simulate
 from .study import Effect, Row, Study, StudyResults
 
 __all__ = [name for name in dir() if not name.startswith("_") and name not in (
-    "body", "linear", "run", "scenario", "simulation", "study", "toml")]
+    "batch", "body", "linear", "run", "scenario", "simulation", "study", "toml")]
 __all__ += ["__version__"]

@@ -28,6 +28,7 @@ void bind_laws(py::module_& m);
 void bind_system(py::module_& m);
 void bind_builder(py::module_& m);
 void bind_simulator(py::module_& m);
+void bind_batch(py::module_& m);
 
 /// The name of the object's class.
 [[nodiscard]] inline std::string name_type(const py::object& object) {

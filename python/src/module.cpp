@@ -19,6 +19,7 @@ PYBIND11_MODULE(_core, m) {
   bind_builder(m);
   bind_run(m);
   bind_simulator(m);
+  bind_batch(m);
   bind_scenario(m);
   bind_analysis(m);
   bind_linear(m);

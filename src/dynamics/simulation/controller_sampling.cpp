@@ -11,6 +11,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
 #include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
@@ -136,6 +137,20 @@ void ControllerSampling::sample(std::size_t i, const SystemState& seen,
   }
   ++own.next;
   write(controller, state);
+}
+
+bool ControllerSampling::repeat_external(SystemState& state) const {
+  const double same = find_same_time(state.t, start_);
+  bool is_any = false;
+  for (std::size_t i = 0; i < model_.controllers.size(); ++i) {
+    const ControllerModel& controller = model_.controllers[i];
+    long& next = state.controllers[i].next;
+    if (next == 0 || !is_external(controller)) continue;
+    if (controller.find_time(next - 1) < state.t - same) continue;
+    --next;
+    is_any = true;
+  }
+  return is_any;
 }
 
 bool ControllerSampling::take(SystemState& state, VectorX& work) {

@@ -29,6 +29,11 @@ class ControllerSampling {
   /// Interrupted if it throws that.
   bool take(SystemState& state, VectorX& work);
 
+  /// Makes the samples that controllers with an ExternalLaw took at the present
+  /// time due again.
+  /// @returns whether there are any
+  bool repeat_external(SystemState& state) const;
+
  private:
   // A coupler, or a transmission after all couplers, whose drives follow
   // inputs.

@@ -15,10 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the limits of steps that do not depend on their errors, in the only pass
-// to a tolerance [-].
-constexpr double kOnePassRefinement = 0.5;
-
 // Adds its lifetime to `seconds`.
 class Stopwatch {
  public:

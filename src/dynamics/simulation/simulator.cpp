@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
@@ -14,6 +16,7 @@
 #include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/explicit_limit.hpp"
 #include "limber/dynamics/simulation/settings_check.hpp"
+#include "limber/dynamics/simulation/single_run.hpp"
 #include "limber/dynamics/simulation/start_warnings.hpp"
 #include "limber/dynamics/simulation/time_loop.hpp"
 
@@ -31,6 +34,12 @@ SimulationSettings check(const SystemModel& model, const SystemState& state,
   return limited;
 }
 
+double choose_refinement(const SimulationSettings& settings) {
+  const bool is_one_pass =
+      settings.tolerance > 0.0 && settings.passes == TolerancePasses::one;
+  return is_one_pass ? kOnePassRefinement : 1.0;
+}
+
 }  // namespace
 
 struct Simulator::Parts {
@@ -40,7 +49,7 @@ struct Simulator::Parts {
         state(start),
         settings(check(model, state, asked, statistics)),
         limit(model),
-        loop(model, settings, state, statistics, 1.0, {},
+        loop(model, settings, state, statistics, choose_refinement(asked), {},
              [this](const SystemState& at) {
                limit.check(at, statistics.warnings);
              }),
@@ -109,6 +118,28 @@ bool Simulator::advance_to(double t, const std::function<bool()>& stops) {
   parts_->rounding.check(parts_->shown(), parts_->statistics.warnings);
   if (parts_->state.t == end) parts_->judge();
   return is_there;
+}
+
+void Simulator::set_external_outputs(std::span<const double> values) {
+  std::vector<std::span<double>> outputs;
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < parts_->model.controllers.size(); ++i) {
+    if (!is_external(parts_->model.controllers[i])) continue;
+    outputs.emplace_back(parts_->state.controllers[i].memory);
+    expected += outputs.back().size();
+  }
+  if (values.size() != expected) {
+    throw InputError(
+        fmt::format("{} outputs are set from outside; expected {}, one for "
+                    "each number that controllers with external laws write",
+                    values.size(), expected));
+  }
+  for (const std::span<double> output : outputs) {
+    std::copy_n(values.begin(), output.size(), output.begin());
+    values = values.subspan(output.size());
+  }
+  parts_->loop.repeat_external_samples(parts_->state);
+  parts_->show();
 }
 
 const SystemState& Simulator::state() const { return parts_->shown(); }

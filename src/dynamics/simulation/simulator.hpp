@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <stop_token>
 
 #include "limber/dynamics/equations/energy_balance.hpp"
@@ -19,7 +20,8 @@ namespace limber::dynamics {
 ///
 /// Limits     all modes are integrated, none solved in closed form; a tolerance
 ///            bounds the error of each step, whereas simulate() repeats the run
-///            until it bounds the error at every output
+///            until it bounds the error at every output. With
+///            TolerancePasses::one steps are those of simulate() to the bit
 class Simulator {
  public:
   /// @param model must outlive the simulator
@@ -41,6 +43,15 @@ class Simulator {
   bool advance_to(double t, const std::stop_token& stop = {});
   /// The same; `stops` is called before every step and returns whether to stop.
   bool advance_to(double t, const std::function<bool()>& stops);
+
+  /// Sets the output of all controllers with an ExternalLaw, from their next
+  /// samples on. Samples that were taken at the present time are taken again,
+  /// so that these then are as if the output had been known before.
+  /// @param values one for each of their ControllerModel::writes, in the order
+  /// of the model [unit of the input]
+  /// @throws InputError for another number of values; NumericalError naming the
+  /// controller for a value that is not finite.
+  void set_external_outputs(std::span<const double> values);
 
   [[nodiscard]] const SystemState& state() const;
   /// Current energies and momenta, work and dissipation since the start.

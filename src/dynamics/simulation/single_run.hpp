@@ -5,6 +5,10 @@
 
 namespace limber::dynamics {
 
+/// Of the limits of steps that do not depend on their errors, in the only pass
+/// to a tolerance [-].
+inline constexpr double kOnePassRefinement = 0.5;
+
 /// simulate() for checked settings, with one pass over the whole time. A
 /// tolerance is shared by the errors of all steps (TolerancePasses::one), or is
 /// the error of each step in one of several passes (run_to_tolerance,

@@ -327,13 +327,6 @@ void TimeLoop::begin(SystemState& state) {
   inputs_jump_ = false;
 }
 
-void TimeLoop::take_samples(SystemState& state) {
-  jumps_.clear();
-  inputs_jump_ |= sampling_.take(state, jumps_.supplied);
-  saturation_.include(state, h_, statistics_.warnings);
-  stepper_.add_between_steps(jumps_);
-}
-
 void TimeLoop::leave_breakpoint(const SystemState& state, const Visit& visit) {
   const Breakpoint& mark = breakpoints_[next_];
   at_jump_ = mark.is_jump || inputs_jump_;

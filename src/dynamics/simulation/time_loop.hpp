@@ -69,6 +69,11 @@ class TimeLoop {
   /// @throws NumericalError as run() does.
   bool run_to(double t, SystemState& state, const std::function<bool()>& stops);
 
+  /// Takes samples that controllers with an ExternalLaw took at the present
+  /// time again: their output has changed since.
+  /// @throws NumericalError as run() does.
+  void repeat_external_samples(SystemState& state);
+
   /// A checkpoint of now for resume(). Discards cached factors, so that both
   /// runs continue identically to the bit.
   [[nodiscard]] Checkpoint save(SystemState& state);

@@ -80,6 +80,25 @@ void TimeLoop::count_share(const SystemState& state) {
                    describe_failure(state)));
 }
 
+void TimeLoop::take_samples(SystemState& state) {
+  jumps_.clear();
+  inputs_jump_ |= sampling_.take(state, jumps_.supplied);
+  saturation_.include(state, h_, statistics_.warnings);
+  stepper_.add_between_steps(jumps_);
+}
+
+// Inputs jump where the last breakpoint's samples left them, or not at all.
+void TimeLoop::repeat_external_samples(SystemState& state) {
+  if (!sampling_.repeat_external(state)) return;
+  jumps_.clear();
+  const bool has_jump = sampling_.take(state, jumps_.supplied);
+  stepper_.add_between_steps(jumps_);
+  if (!has_started_) return;
+  const bool had_jump = at_jump_;
+  at_jump_ = has_jump || breakpoints_[next_ - 1].is_jump;
+  if (at_jump_ && !had_jump) peaks_.cross_jump(state);
+}
+
 // One of equal steps, in parts if it is cut by events or halved.
 void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
   // Times are computed from the breakpoint, not as a sum of steps.

@@ -415,20 +415,12 @@ void Assembly::deform(const dynamics::SystemModel& model,
 dynamics::SystemState Assembly::make_initial_state(
     const dynamics::SystemModel& model) const {
   dynamics::SystemState state = dynamics::make_state(model);
+  follow_links(find_placed_bodies(plans_), motions_, state);
   VectorX u_B = state.u_H;
   VectorX udot_B = state.udot_H;
-  for (std::size_t i = 0; i < plans_.bodies.size(); ++i) {
-    if (body_index_[i] == dynamics::kWorld) continue;
-    const int link = plans_.bodies[i].links.front();
-    const LinkMotion& motion = motions_[index(link)];
-    const Pose X_WB =
-        motion.X_WL * sites_.X_BL(link, plans_.bodies[i].piece).inverse();
-    dynamics::BodyState& body = state.bodies[index(body_index_[i])];
-    body.p_WB = X_WB.p;
-    body.quat_WB = Quaternion(X_WB.R).normalized();
-    body.v_WB_W = motion.v_WL_W + motion.w_WL_W.cross(X_WB.p - motion.X_WL.p);
-    body.w_WB_B = X_WB.R.transpose() * motion.w_WL_W;
-    deform(model, model.bodies[index(body_index_[i])], u_B, udot_B, state);
+  for (const dynamics::BodyIndex body : body_index_) {
+    if (body == dynamics::kWorld) continue;
+    deform(model, model.bodies[index(body)], u_B, udot_B, state);
   }
   place_nodes(model, u_B, udot_B, state);
   store_turns(model, find_joint_starts(scene_.robot, scene_.scenario), state);

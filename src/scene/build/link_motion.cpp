@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
 #include "limber/common/roll_pitch_yaw.hpp"
 #include "limber/dynamics/equations/kinematics.hpp"
@@ -148,6 +149,30 @@ std::vector<LinkMotion> find_link_motions(const Robot& robot,
                                           const Scenario& scenario) {
   check_starts(robot, scenario);
   return place_links(robot, scenario, find_joint_starts(robot, scenario));
+}
+
+std::vector<PlacedBody> find_placed_bodies(const BodyPlans& plans) {
+  std::vector<PlacedBody> bodies;
+  for (const BodyPlan& plan : plans.bodies) {
+    if (plan.is_world) continue;
+    const int link = plan.links.front();
+    bodies.push_back({link, find_X_BL(plans, link, plan.piece).inverse()});
+  }
+  return bodies;
+}
+
+void follow_links(const std::vector<PlacedBody>& bodies,
+                  const std::vector<LinkMotion>& motions,
+                  dynamics::SystemState& state) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const LinkMotion& motion = motions[index(bodies[i].link)];
+    const Pose X_WB = motion.X_WL * bodies[i].X_LB;
+    dynamics::BodyState& body = state.bodies[i];
+    body.p_WB = X_WB.p;
+    body.quat_WB = Quaternion(X_WB.R).normalized();
+    body.v_WB_W = motion.v_WL_W + motion.w_WL_W.cross(X_WB.p - motion.X_WL.p);
+    body.w_WB_B = X_WB.R.transpose() * motion.w_WL_W;
+  }
 }
 
 std::vector<LinkMotion> find_motions_at_zero(const Robot& robot,

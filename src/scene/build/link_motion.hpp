@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/scene/build/body_plan.hpp"
 #include "limber/scene/robot/robot.hpp"
 #include "limber/scene/scenario/scenario.hpp"
 
@@ -33,5 +35,23 @@ struct LinkMotion {
 /// follow the other joint.
 [[nodiscard]] std::map<std::string, JointStart> find_joint_starts(
     const Robot& robot, const Scenario& scenario);
+
+/// Place of a body of the system in its link's frame; of several links that of
+/// the first, of a link in pieces each piece.
+struct PlacedBody {
+  int link = 0;  ///< index of the robot's
+  Pose X_LB;     ///< undeformed
+};
+
+/// One per body of the system.
+[[nodiscard]] std::vector<PlacedBody> find_placed_bodies(
+    const BodyPlans& plans);
+
+/// Moves bodies with the frames of their links, which are undeformed.
+/// @param bodies one per body of the state
+/// @param motions one per link
+void follow_links(const std::vector<PlacedBody>& bodies,
+                  const std::vector<LinkMotion>& motions,
+                  dynamics::SystemState& state);
 
 }  // namespace limber::scene
