@@ -68,14 +68,14 @@ while(public_headers)
     continue()
   endif()
   list(APPEND installed ${header})
-  file(STRINGS ${PROJECT_SOURCE_DIR}/src/${header} includes
+  file(STRINGS ${PROJECT_SOURCE_DIR}/src/limber/${header} includes
     REGEX "^#include \"limber/")
   list(TRANSFORM includes REPLACE "^#include \"limber/([^\"]+)\".*" "\\1")
   list(APPEND public_headers ${includes})
 endwhile()
 foreach(header IN LISTS installed)
   get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${PROJECT_SOURCE_DIR}/src/${header}
+  install(FILES ${PROJECT_SOURCE_DIR}/src/limber/${header}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber/${folder} COMPONENT dev)
 endforeach()
 

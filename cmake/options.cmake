@@ -131,7 +131,7 @@ function(limber_layer name)
   add_library(limber_${name} ${sources})
   add_library(limber::${name} ALIAS limber_${name})
   target_include_directories(limber_${name} PUBLIC
-    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include;${PROJECT_BINARY_DIR}/include>"
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src;${PROJECT_BINARY_DIR}/include>"
     $<INSTALL_INTERFACE:include>)
   target_link_libraries(limber_${name} PRIVATE $<BUILD_INTERFACE:limber_options>)
   target_compile_features(limber_${name} PUBLIC cxx_std_20)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hdf5File without HDF5: the same datasets in flat files, in place of
-// src/common/files/hdf5_file.cpp. A file that is written is one map until it is
-// closed.
+// src/limber/common/files/hdf5_file.cpp. A file that is written is one map
+// until it is closed.
 #include "limber/common/files/hdf5_file.hpp"
 
 #include <fmt/format.h>

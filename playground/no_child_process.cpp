@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A page starts no programs; in place of src/common/process/child_process.cpp.
+// A page starts no programs; in place of
+// src/limber/common/process/child_process.cpp.
 #include "limber/common/errors.hpp"
 #include "limber/common/process/child_process.hpp"
 

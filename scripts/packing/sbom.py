@@ -29,7 +29,7 @@ LICENCES = {
 # Part of every Debian, and of every Linux that runs what is made here.
 SYSTEM = re.compile(r"/(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|anl))\.so")
 
-# limber loads it by this name (src/fem/linalg/cholmod_library.cpp).
+# limber loads it by this name (src/limber/fem/linalg/cholmod_library.cpp).
 CHOLMOD = pathlib.Path("/usr/lib/x86_64-linux-gnu/libcholmod.so.3")
 
 
@@ -89,7 +89,7 @@ def list_parts(libraries, headers):
 
 
 def read_page_versions():
-    lock = json.loads((build.SOURCE / "src/view/page/package-lock.json").read_text())
+    lock = json.loads((build.SOURCE / "src/limber/view/page/package-lock.json").read_text())
     return {name: lock["packages"][f"node_modules/{name}"]["version"] for name in PAGE}
 
 

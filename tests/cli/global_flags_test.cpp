@@ -200,7 +200,7 @@ std::string in_folder() {
   return "mkdir -p bin && ln -sf '" LIMBER_COMMAND
          "' bin/limber && unset -f limber && export PATH=$PWD/bin:$PATH && ";
 }
-const char* const kShells = LIMBER_SOURCE_DIR "/src/app/shells/";
+const char* const kShells = LIMBER_SOURCE_DIR "/src/limber/app/shells/";
 
 TEST_F(SharedGlobalFlags, BashCompletes) {
   place_.write("t.bash",

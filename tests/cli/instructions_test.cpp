@@ -47,9 +47,8 @@ TEST(Instructions, ThatAreNotKnownEndARunBeforeItsFirstStep) {
       run_shell(place, "LIMBER_SIMD=sse9 ./limber run '" LIMBER_SOURCE_DIR
                        "/examples/pendulum_chain.toml' --out a");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors,
-              AllOf(HasSubstr("LIMBER_SIMD"), HasSubstr("sse9"),
-                    HasSubstr("expected 'baseline'")));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("LIMBER_SIMD"), HasSubstr("sse9"),
+                                   HasSubstr("expected 'baseline'")));
 }
 
 }  // namespace

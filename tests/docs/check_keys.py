@@ -38,7 +38,7 @@ def main():
     keys = list_keys(json.loads((source / SCHEMA).read_text()))
     problems += [f"{SCHEMA}: '{key}' is not in {SCENARIO_PAGES[0]}" for key in sorted(keys - words)]
     words, count = read_words(ROBOT_PAGES), len(keys)
-    for file in sorted((source / "include/limber/scene/robot").glob("*.cpp")):
+    for file in sorted((source / "src/limber/scene/robot").glob("*.cpp")):
         for key in sorted(set(READ.findall(file.read_text()))):
             count += 1
             if key not in words:

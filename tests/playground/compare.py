@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """compare.py NATIVE FLAT: whether the states in results of the playground's module (a flat file,
-src/common/files/flat_file.hpp) are those of `limber run` (results.h5) to the bit, at all outputs."""
+src/limber/common/files/flat_file.hpp) are those of `limber run` (results.h5) to the bit, at all outputs."""
 import struct
 import sys
 

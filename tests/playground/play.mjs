@@ -1,6 +1,6 @@
 // Runs what a page of `limber view --play` holds under node, and keeps the results:
 // play.mjs SETUP.json RESULTS [PATH=VALUE...]
-// SETUP.json is the page's data (src/view/play_page.cpp); the page itself does the same
+// SETUP.json is the page's data (src/limber/view/play_page.cpp); the page itself does the same
 // in a worker.
 import { readFile, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';

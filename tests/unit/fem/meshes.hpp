@@ -7,7 +7,7 @@
 
 #include "limber/fem/mesh/mesh_reader.hpp"
 
-/// Small meshes for the tests of src/fem.
+/// Small meshes for the tests of src/limber/fem.
 namespace limber::fem::testing {
 
 /// The box that most tests mesh [m]; no two lengths alike, off the origin.

@@ -72,10 +72,10 @@ TEST(InertiaKernel, SumsOverTheModes) {
     for (int c = 0; c < 6; ++c) {
       const VectorX dJ = inertia.J1.col(c) + inertia.J2[c] * eta;
       EXPECT_TRUE(products.col(c).head(m).isApprox(dJ, kRoundoff)) << m;
-      EXPECT_NEAR(sums.J[c],
-                  inertia.J1.col(c).dot(eta) +
-                      0.5 * eta.dot(inertia.J2[c] * eta),
-                  kRoundoff * m);
+      EXPECT_NEAR(
+          sums.J[c],
+          inertia.J1.col(c).dot(eta) + 0.5 * eta.dot(inertia.J2[c] * eta),
+          kRoundoff * m);
       EXPECT_NEAR(sums.Jdot[c], dJ.dot(etadot), kRoundoff * m);
       expected -= half[c] * dJ;
     }

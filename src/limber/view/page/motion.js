@@ -87,7 +87,7 @@ export class Motion {
 
   /// Where the picture counts from at a time, world [m]: the offset of the
   /// result, or, where it travels far, the mean of its bodies' places. It is
-  /// that of src/view/home.hpp at outputs.
+  /// that of src/limber/view/home.hpp at outputs.
   home(at) {
     const { offset, travels, bodies } = this.result;
     if (!travels) return offset;

@@ -1,4 +1,4 @@
-// From the text in the page to results with typed arrays; src/view/page_data.hpp
+// From the text in the page to results with typed arrays; src/limber/view/page_data.hpp
 // describes the bytes.
 
 const kTypes = {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Internal to src/fem/linalg: the only header that exposes CHOLMOD's types.
+// Internal to src/limber/fem/linalg: the only header that exposes CHOLMOD's
+// types.
 
 #include <string>
 #include <vector>

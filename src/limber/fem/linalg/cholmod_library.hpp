@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// For sources of src/fem/linalg only: they alone see CHOLMOD's types.
+// For sources of src/limber/fem/linalg only: they alone see CHOLMOD's types.
 #include <cholmod.h>
 
 namespace limber::fem {

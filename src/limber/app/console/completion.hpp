@@ -32,7 +32,7 @@ struct Candidate {
     const CLI::App& app, const std::vector<std::string>& words);
 
 /// One candidate per line, word and help separated by a tab, for the functions
-/// of shells (src/app/shells).
+/// of shells (src/limber/app/shells).
 [[nodiscard]] std::string to_lines(const std::vector<Candidate>& candidates);
 
 }  // namespace limber::app

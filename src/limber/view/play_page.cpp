@@ -19,7 +19,7 @@
 namespace limber::view {
 namespace {
 
-/// src/view/page/play.html contains it once.
+/// src/limber/view/page/play.html contains it once.
 constexpr std::string_view kPlayMark = "LIMBER-DATA-HERE";
 
 std::filesystem::path find_part(const std::string& name) {

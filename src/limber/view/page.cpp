@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Place of the data; src/view/page/index.html contains it once.
+/// Place of the data; src/limber/view/page/index.html contains it once.
 constexpr std::string_view kMark = "LIMBER-DATA-HERE";
 constexpr const char* kName = "view.html";
 

@@ -62,7 +62,7 @@ export function findBox({ result }, home) {
   return { lower, upper, size };
 }
 
-// Largest value of each field at an output, over all nodes: src/view/extremes.hpp.
+// Largest value of each field at an output, over all nodes: src/limber/view/extremes.hpp.
 const fieldsAt = ({ most }, i) => [0, ...(most?.subarray(4 * i, 4 * i + 4) ?? [0, 0, 0, 0])];
 
 /// Largest of each field over the run, and when the deformation is largest.
