@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Pages of `limber view --play` against the command: check.py bits|page LIMBER NODE NODE_MODULES FOLDER
+"""Pages of `limber view --play` against the command: check.py states|page LIMBER NODE NODE_MODULES FOLDER
 SCENARIO...
 
-bits: the states of `limber run` and of the page's module under node must be equal to the bit, at all
-outputs: scenes without turned mounts, as the last bit of a sine is that of the C library.
+states: those of `limber run` and of the page's module under node must be equal, but for what the last
+bits of the C library's sines and powers grow to.
 page: in headless Chromium every control must change the answer (drive_play.mjs).
 Ends with 77, and says why, where the module was not built (scripts/playground) or Chromium is missing."""
 import base64
@@ -36,7 +36,7 @@ def make_page(limber, folder, scenario):
     return page, setup
 
 
-def check_bits(limber, node, folder, scenario):
+def check_states(limber, node, folder, scenario):
     _, setup = make_page(limber, folder, scenario)
     setup_file = folder / "setup.json"
     setup_file.write_text(json.dumps(setup))
@@ -73,7 +73,7 @@ def main(what, limber, node, modules, folder, *scenarios):
         name = pathlib.Path(scenario).stem
         print(f"{name}:", flush=True)
         at = pathlib.Path(folder) / name
-        failed += (check_bits(limber, node, at, scenario) if what == "bits"
+        failed += (check_states(limber, node, at, scenario) if what == "states"
                    else check_page(limber, node, modules, at, scenario))
     sys.exit(1 if failed else 0)
 
