@@ -188,7 +188,14 @@ std::vector<int> SolidAttachments::read_nodes(const BulkCard& card,
         if (is_solid(node)) nodes.push_back(node);
       continue;
     }
-    if (!is_number(text)) break;
+    if (is_real(text) || text == "UM" || text == "ALPHA") break;
+    if (!is_number(text)) {
+      problems_->add(*card.line,
+                     fmt::format("{} {} has '{}' among its nodes. Expected "
+                                 "numbers, or THRU.",
+                                 card.name, echo(card.field(0)), echo(text)));
+      break;
+    }
     if (const auto node = card.integer(field, std::nullopt, *problems_))
       nodes.push_back(*node);
   }

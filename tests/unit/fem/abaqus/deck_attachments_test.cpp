@@ -61,11 +61,11 @@ TEST(DeckAttachments, OfAPartBelongToItsInstance) {
 TEST(DeckAttachments, WhatIsNoMassOfASolidIsAnError) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"*ELEMENT, TYPE=MASS, ELSET=M\n11, 9\n*MASS, ELSET=M\n0.5\n",
-       "deck.inp:11: the mass 11 is not at one node of a solid"},
+       "deck.inp:12: the mass 11 is not at one node of a solid"},
       {"*ELEMENT, TYPE=MASS, ELSET=M\n11, 2\n*MASS, ELSET=M\n-1\n",
-       "deck.inp:13: *MASS is '-1'"},
-      {"*ELEMENT, TYPE=MASS, ELSET=M\n11, 2\n", "deck.inp:11: elements MASS"},
-      {"*BOUNDARY\nBase, 1, x\n", "deck.inp:11: *BOUNDARY has the last"}};
+       "deck.inp:14: *MASS is '-1'"},
+      {"*ELEMENT, TYPE=MASS, ELSET=M\n11, 2\n", "deck.inp:12: elements MASS"},
+      {"*BOUNDARY\nBase, 1, x\n", "deck.inp:12: *BOUNDARY has the last"}};
   for (const auto& [text, what] : cases) {
     SCOPED_TRACE(text);
     try {

@@ -271,11 +271,11 @@ TEST(SolidDeck, RefusesWhatIsWrongWithItsLine) {
        "ends within *INSTANCE"},
       {"*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
        "*INSTANCE, NAME=J, PART=P\n",
-       "bad.inp:15: a second *INSTANCE"},
+       "bad.inp:14: a second *INSTANCE"},
       {"*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n0, 0, 1, 2\n",
        "a line too many or too long"},
       {"*MATERIAL, NAME=M\n*MATERIAL, NAME=M\n", "material M is there twice"},
-      {"*MATERIAL, NAME=M\n*ELASTIC\n1., x\n", "bad.inp:13: 'x' is no"},
+      {"*MATERIAL, NAME=M\n*ELASTIC\n1., x\n", "bad.inp:12: 'x' is no"},
       {"*ELSET, ELSET=A\n10\n*ELSET, ELSET=B\n10\n*SOLID SECTION, ELSET=A, "
        "MATERIAL=M\n*SOLID SECTION, ELSET=B, MATERIAL=M\n",
        "element 10 has two sections, of the sets A and B"},

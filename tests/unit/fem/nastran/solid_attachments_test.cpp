@@ -72,14 +72,16 @@ TEST(SolidAttachments, WhatANodeOfASolidCannotCarryIsAnError) {
       {"RBE3,22,,9,123456,1.,123,2,4\nCONM2,11,9,,3.\n",
        "it is at GRID 9, which is the hub of rbe3:22"},
       {"CONM2,11,2,,3.,0.,.1\n", "it has an offset or moments of inertia"},
-      {"CONM2,11,2,,3.,,,,,1.\n", "it has an offset or moments of inertia"},
+      {"CONM2,11,2,,3.,,,,\n,1.\n", "it has an offset or moments of inertia"},
       {"CONM2,11,2,-1,3.\n", "it has an offset or moments of inertia"},
       {"CONM2,11,2,,-3.\n", "its mass is -3. Expected >= 0."},
       {"RBE2,21,1,123456,2,3\n", "its hub, GRID 1, is a node of a solid"},
       {"RBE2,21,9,12,2,3\n", "CM is '12'"},
       {"RBE2,21,9,123,2,8\n", "has GRID 8, which belongs to no solid"},
       {"RBE2,21,9,123\n", "has no nodes"},
-      {"RBE3,22,,9,123456,1.,123,2,+\n+,2.,123,3\n", "different weights"},
+      {"RBE3,22,,9,123456,1.,123,2,\n,2.,123,3\n", "different weights"},
+      {"RBE3,22,,9,123456,1.,123,2,x\n", "has 'X' among its nodes"},
+      {"SPC1,22,123,2,-4\n", "has '-4' among its nodes"},
       {"RBE3,22,,9,123456,1.,1,2\n", "a component list (C) is '1'"}};
   for (const auto& [cards, what] : cases) {
     SCOPED_TRACE(cards);
