@@ -16,9 +16,6 @@
 /// A function that takes the set of instructions of its caller.
 #define LIMBER_KERNEL [[gnu::always_inline]] inline
 
-// Lanes are never passed by a real call, whose form depends on the options.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace limber::dynamics::kernels {
 
 using Two = double __attribute__((vector_size(16)));
