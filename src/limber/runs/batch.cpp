@@ -132,27 +132,27 @@ void check_size(const std::string& what, std::size_t size, std::size_t n,
                   what, size, n * of_each, of_each, n));
 }
 
-struct World {
-  std::unique_ptr<dynamics::Simulator> simulator;
-  long periods = 0;     ///< taken since the start
-  std::string failure;  ///< why it failed
-};
-
-/// What evaluates probes, which are not thread-safe.
-struct Reader {
-  explicit Reader(const scene::BuiltScene& built)
-      : probes(built.probes), followed(scene::follow(probes, built.model)) {}
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  std::vector<scene::Probe> probes;
-  dynamics::Followed followed;
-  std::vector<double> values;
-};
-
 }  // namespace
 
 struct Batch::Parts {
+  struct World {
+    std::unique_ptr<dynamics::Simulator> simulator;
+    long periods = 0;     ///< taken since the start
+    std::string failure;  ///< why it failed
+  };
+
+  /// What evaluates probes, which are not thread-safe.
+  struct Reader {
+    explicit Reader(const scene::BuiltScene& built)
+        : probes(built.probes), followed(scene::follow(probes, built.model)) {}
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    std::vector<scene::Probe> probes;
+    dynamics::Followed followed;
+    std::vector<double> values;
+  };
+
   Parts(const scene::Scene& its_scene, scene::BuiltScene its_built,
         std::size_t n, const BatchOptions& options)
       : scene(its_scene), built(std::move(its_built)), worlds(n) {
@@ -271,7 +271,7 @@ std::vector<std::string> Batch::reset(std::span<const unsigned char> selected,
   const std::size_t n = size();
   check_size("mask of worlds to reset", selected.size(), n, 1);
   if (!starts.empty()) check_size("starts of worlds", starts.size(), n, 1);
-  std::vector<World> made(n);
+  std::vector<Parts::World> made(n);
   std::vector<std::vector<std::string>> notices(n);
   for_each_world(n, p.threads, [&](std::size_t i, std::size_t /*thread*/) {
     if (selected[i] == 0) return;
