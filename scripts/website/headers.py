@@ -38,8 +38,8 @@ def list_headers(source):
     if UMBRELLA not in headers or len(headers) < 10:
         raise RuntimeError("docs/reference/compatibility.md has no table of headers")
     included = re.findall(r'#include "(limber/[\w/]+\.hpp)"',
-                          (source / "include" / UMBRELLA).read_text())
-    own = [name for name in included if (source / "include" / name).is_file()]
+                          (source / "src" / UMBRELLA).read_text())
+    own = [name for name in included if (source / "src" / name).is_file()]
     return [*own, *(name for name in headers if name != UMBRELLA and name not in own)]
 
 
@@ -160,7 +160,7 @@ def write(source, work, tree):
     """Names of the pages."""
     headers = list_headers(source)
     work.mkdir()
-    inputs = " ".join(f'"{(source / "include" / header).resolve()}"' for header in headers)
+    inputs = " ".join(f'"{(source / "src" / header).resolve()}"' for header in headers)
     (work / "Doxyfile").write_text(OPTIONS + f"INPUT = {inputs}\nOUTPUT_DIRECTORY = {work}\n"
                                    f'INPUT_FILTER = "{FILTER}"\n')
     subprocess.run(["doxygen", work / "Doxyfile"], check=True, capture_output=True)

@@ -13,10 +13,11 @@ namespace limber::runs {
 
 /// What a playground changes of a scene.
 struct PlaySettings {
-  scene::Overrides overrides;  ///< keys of its files, and the level
-  std::optional<int> modes;    ///< the lowest that are kept of each body, > 0
-  std::optional<double> damping;  ///< damping ratio of links' materials [-]
-  double step_factor = 1.0;       ///< of all its steps, > 0 [-]
+  scene::Overrides overrides = {};  ///< keys of its files, and the level
+  /// The lowest that are kept of each body, > 0.
+  std::optional<int> modes = {};
+  std::optional<double> damping = {};  ///< of links' materials [-]
+  double step_factor = 1.0;            ///< of all its steps, > 0 [-]
 };
 
 /// From lines PATH=VALUE: a key of `--set`, or `level`, `modes`, `damping`,

@@ -168,7 +168,7 @@ TEST(AnisotropicSolid, OfAnIsotropicMaterialIsThatMaterial) {
 
   MatrixX Phi(u.size(), 2);
   Phi << u, sample(mesh, [](const Vector3& x) -> Vector3 {
-    return 0.1 * Vector3(x[1], x[2] * x[2], x[0] * x[2]);
+    return 0.1 * Vector3(x[1] * x[1] * x[1], x[2] * x[2], x[0] * x[2]);
   });
   const SecondOrderTerms two = calc_second_order(mesh, {kSteel}, kLaw, Phi);
   const SecondOrderTerms many =
