@@ -20,7 +20,7 @@ TEST(Instructions, GiveTheSameBits) {
   const Workspace place;
   if (!has_avx2(place)) GTEST_SKIP() << "this processor has no AVX2";
   const std::string run =
-      "./limber run '" LIMBER_SOURCE_DIR
+      "limber run '" LIMBER_SOURCE_DIR
       "/examples/struck_finger.toml' --set output.pictures=false --set "
       "time.duration=0.05 --out ";
   ASSERT_EQ(run_shell(place, "LIMBER_SIMD=baseline " + run + "a").status, 0);
@@ -34,17 +34,17 @@ TEST(Instructions, GiveTheSameBits) {
 
 TEST(Instructions, AreToldByTheVersion) {
   const Workspace place;
-  EXPECT_THAT(run_shell(place, "LIMBER_SIMD=baseline ./limber --version").out,
+  EXPECT_THAT(run_shell(place, "LIMBER_SIMD=baseline limber --version").out,
               HasSubstr("LIMBER_SIMD          baseline x86-64"));
   if (!has_avx2(place)) return;
-  EXPECT_THAT(run_shell(place, "LIMBER_SIMD= ./limber --version").out,
+  EXPECT_THAT(run_shell(place, "LIMBER_SIMD= limber --version").out,
               HasSubstr("LIMBER_SIMD          AVX2"));
 }
 
 TEST(Instructions, ThatAreNotKnownEndARunBeforeItsFirstStep) {
   const Workspace place;
   const CommandResult result =
-      run_shell(place, "LIMBER_SIMD=sse9 ./limber run '" LIMBER_SOURCE_DIR
+      run_shell(place, "LIMBER_SIMD=sse9 limber run '" LIMBER_SOURCE_DIR
                        "/examples/pendulum_chain.toml' --out a");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, AllOf(HasSubstr("LIMBER_SIMD"), HasSubstr("sse9"),
