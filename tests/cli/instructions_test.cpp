@@ -22,7 +22,7 @@ TEST(Instructions, GiveTheSameBits) {
   const std::string run =
       "limber run '" LIMBER_SOURCE_DIR
       "/examples/struck_finger.toml' --set output.pictures=false --set "
-      "time.duration=0.05 --out ";
+      "time.duration=0.35 --out ";
   ASSERT_EQ(run_shell(place, "LIMBER_SIMD=baseline " + run + "a").status, 0);
   ASSERT_EQ(run_shell(place, "LIMBER_SIMD=avx2 " + run + "b").status, 0);
   const std::string probes = read_text(place.folder() / "a/probes.csv");

@@ -2,10 +2,24 @@
 #include "limber/app/console/help_text.hpp"
 
 #include "limber/app/build_options.hpp"
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/kernels/processor.hpp"
 #include "limber/version.hpp"
 
 namespace limber::app {
+namespace {
+
+// Or why a run will not begin.
+std::string describe_instructions() {
+  try {
+    return std::string(
+        dynamics::kernels::describe(dynamics::kernels::find_instructions()));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
 
 std::string describe_build() {
   return "limber " LIMBER_VERSION
@@ -21,8 +35,7 @@ std::string describe_build() {
          "LIMBER_SANITIZE      " LIMBER_BUILD_SANITIZE
          "\n"
          "LIMBER_SIMD          " +
-         std::string(dynamics::kernels::describe(
-             dynamics::kernels::find_instructions()));
+         describe_instructions();
 }
 
 std::string describe_citation() {
