@@ -66,11 +66,6 @@ TEST_F(Play, RefusesALevelThatNeedsTheMesh) {
 }
 
 TEST_F(Play, RefusesFilesThatThePageWouldLack) {
-  if (!std::filesystem::exists(
-          std::filesystem::path(LIMBER_COMMAND).parent_path() /
-          "playground.js")) {
-    GTEST_SKIP() << "scripts/playground has not built the module";
-  }
   place_.write("push.txt", "5 1e6 0 0\n");
   write_scene(
       "[[load]]\nname = 'push'\nlink = 'beam'\nnodal_forces = 'push.txt'\n");

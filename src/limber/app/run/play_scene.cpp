@@ -120,6 +120,25 @@ void refuse_full(const scene::Scene& scene) {
   }
 }
 
+[[noreturn]] void refuse_needs(const std::string& what) {
+  throw InputError(fmt::format(
+      "a page takes along the scenario, its robots and the meshes of their "
+      "shapes, and this scene needs more: {}",
+      what));
+}
+
+/// Files of fields on nodes, which are read with a mesh.
+void refuse_nodal_files(const scene::Scenario& scenario) {
+  for (const scene::LoadSpec& load : scenario.loads) {
+    if (!load.nodal_forces.empty()) refuse_needs(load.nodal_forces.string());
+  }
+  for (const auto& [link, start] : scenario.link_starts) {
+    for (const fs::path& file : {start.displacement, start.velocity}) {
+      if (!file.empty()) refuse_needs(file.string());
+    }
+  }
+}
+
 /// Whether the page's files are all that the scene needs, and its settings are
 /// possible: it is read from a copy of them alone.
 void check_whole(const view::Playground& playground) {
@@ -138,10 +157,7 @@ void check_whole(const view::Playground& playground) {
   try {
     (void)scene::load_scene(place_of(playground.scenario), overrides);
   } catch (const InputError& error) {
-    throw InputError(fmt::format(
-        "a page takes along the scenario, its robots and the meshes of their "
-        "shapes, and this scene needs more: {}",
-        error.what()));
+    refuse_needs(error.what());
   }
 }
 
@@ -168,6 +184,7 @@ view::Playground make_playground(const scene::Scene& scene,
                                  const std::filesystem::path& cache,
                                  const Progress& progress) {
   refuse_full(scene);
+  refuse_nodal_files(scene.scenario);
   view::Playground playground;
   playground.name = scene.scenario.name;
   playground.settings = limit_outputs(scene);
