@@ -12,7 +12,6 @@
 namespace limber::results {
 namespace {
 
-constexpr int kMostFailures = 3;
 constexpr std::size_t kMostAtATime = 4;
 constexpr std::size_t kMostTogether = 16;  // charts of one process
 

@@ -91,16 +91,19 @@ std::string run_together(const std::vector<GnuplotScript>& scripts) {
   GnuplotEnd end = GnuplotEnd::done;
   if (scripts.size() > 1) end = run_script(all);
   std::vector<std::string> reasons;
+  int failures = 0;
   for (const GnuplotScript& script : scripts) {
-    if (end != GnuplotEnd::failed &&
+    // A process that was ended may have left half a picture.
+    if (end == GnuplotEnd::done &&
         std::filesystem::exists(script.file(), ignored)) {
       continue;
     }
     const std::string why = script.run();
-    if (why.empty() || std::ranges::find(reasons, why) != reasons.end()) {
-      continue;
+    if (why.empty()) continue;
+    if (std::ranges::find(reasons, why) == reasons.end()) {
+      reasons.push_back(why);
     }
-    reasons.push_back(why);
+    if (++failures == kMostFailures) break;
   }
   return fmt::format("{}", fmt::join(reasons, "; "));
 }

@@ -29,8 +29,12 @@ class GnuplotScript {
   std::string text_;
 };
 
+/// Failures after which no further pictures are drawn, since they would fail
+/// alike.
+inline constexpr int kMostFailures = 3;
+
 /// Runs all in one process, which saves most of the time of a small picture;
-/// those that fail there once more, each alone.
+/// those that fail there once more, each alone, up to kMostFailures.
 /// @returns an empty string, or why pictures are missing, each reason once
 [[nodiscard]] std::string run_together(
     const std::vector<GnuplotScript>& scripts);
