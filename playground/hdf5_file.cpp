@@ -13,11 +13,10 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/flat_file.hpp"
+#include "limber/flexbody/file/body_seal.hpp"
 
 namespace limber {
 namespace {
-
-constexpr std::size_t kSealSize = 512;  // of bodies; other files have no seal
 
 struct OpenFile {
   FlatFile content;
@@ -92,7 +91,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file,
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
-  const std::size_t user_block = is_flat(file, 0) ? 0 : kSealSize;
+  const std::size_t user_block = is_flat(file, 0) ? 0 : flexbody::kBodySealSize;
   return {add_file({read_flat(file, user_block), false}), file};
 }
 

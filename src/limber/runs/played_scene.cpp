@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/parse_number.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/model/kept_modes.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -22,16 +22,12 @@ constexpr double kMostModes = 1e6;
 constexpr double kMostDamping = 0.5;  // as of <damping>
 constexpr double kMostFactor = 1e3;
 
-double parse_number(const scene::Setting& setting, double least, double most) {
-  const std::string& text = *setting.value;
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
-  if (error == std::errc{} && at == end && value >= least && value <= most) {
-    return value;
-  }
+double require_number(const scene::Setting& setting, double least,
+                      double most) {
+  const std::optional<double> value = parse_number(*setting.value);
+  if (value && *value >= least && *value <= most) return *value;
   throw InputError(fmt::format("{} = {}: expected a number from {:g} to {:g}",
-                               setting.path, text, least, most));
+                               setting.path, *setting.value, least, most));
 }
 
 void scale_steps(double factor, dynamics::SimulationSettings& settings) {
@@ -44,7 +40,7 @@ void scale_steps(double factor, dynamics::SimulationSettings& settings) {
 /// The body's file, or beside it one with its lowest modes alone.
 fs::path find_body(const fs::path& file, std::optional<int> modes) {
   if (!modes) return file;
-  const fs::path kept = file.string() + fmt::format("-{}", *modes);
+  fs::path kept = file.string() + fmt::format("-{}", *modes);
   if (!fs::exists(kept)) {
     flexbody::write_body(
         flexbody::keep_lowest_modes(flexbody::read_body(file), *modes), kept);
@@ -63,13 +59,13 @@ PlaySettings parse_play_settings(const std::string& lines) {
     if (setting.path == "level") {
       settings.overrides.fidelity = dynamics::parse_fidelity(*setting.value);
     } else if (setting.path == "modes") {
-      settings.modes =
-          static_cast<int>(std::lround(parse_number(setting, 1.0, kMostModes)));
+      settings.modes = static_cast<int>(
+          std::lround(require_number(setting, 1.0, kMostModes)));
     } else if (setting.path == "damping") {
-      settings.damping = parse_number(setting, 0.0, kMostDamping);
+      settings.damping = require_number(setting, 0.0, kMostDamping);
     } else if (setting.path == "steps") {
       settings.step_factor =
-          parse_number(setting, 1.0 / kMostFactor, kMostFactor);
+          require_number(setting, 1.0 / kMostFactor, kMostFactor);
     } else {
       settings.overrides.settings.push_back(setting);
     }

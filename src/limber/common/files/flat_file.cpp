@@ -33,7 +33,7 @@ class FlatReader {
   [[nodiscard]] bool is_at_end() const { return at_ == bytes_.size(); }
   std::string take(std::uint64_t size) {
     if (size > bytes_.size() - at_) fail("is cut short");
-    const std::string part = bytes_.substr(at_, static_cast<std::size_t>(size));
+    std::string part = bytes_.substr(at_, static_cast<std::size_t>(size));
     at_ += part.size();
     return part;
   }

@@ -16,7 +16,7 @@
 namespace limber::dynamics {
 namespace {
 
-std::size_t columns_of(const Matrix6X& matrix) {
+std::size_t count_columns(const Matrix6X& matrix) {
   return static_cast<std::size_t>(matrix.cols());
 }
 
@@ -157,7 +157,7 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
         const End& row = ends_[index(i)];
         const End& column = ends_[index(j)];
         kernels::add_outer_products(
-            row.G.data(), column.Zt.data(), columns_of(row.G),
+            row.G.data(), column.Zt.data(), count_columns(row.G),
             plan_.lu.block(row.link, column.link).data());
       }
     }
@@ -319,7 +319,8 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   for (const End& end : ends_) {
     if (is_retained(end)) continue;
     kernels::add_product(end.G.data(), increments.data() + end.row,
-                         columns_of(end.G), unknowns_[index(end.link)].data());
+                         count_columns(end.G),
+                         unknowns_[index(end.link)].data());
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const Vector6 right =
@@ -343,7 +344,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   for (const End& end : ends_) {
     if (is_retained(end)) continue;
     kernels::add_transposed_product(
-        end.Zt.data(), wrenches_[index(end.link)].data(), columns_of(end.Zt),
+        end.Zt.data(), wrenches_[index(end.link)].data(), count_columns(end.Zt),
         increments.data() + end.row);
   }
 }

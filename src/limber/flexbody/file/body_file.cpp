@@ -20,19 +20,17 @@
 #include "limber/flexbody/file/body_file_reader.hpp"
 #include "limber/flexbody/file/body_file_records.hpp"
 #include "limber/flexbody/file/body_file_stress.hpp"
+#include "limber/flexbody/file/body_seal.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 constexpr InputKind kReducedBody = {"reduced body", std::uint64_t{1} << 36};
 
-// Size of HDF5's user block, which holds the seal.
-constexpr std::size_t kSealSize = 512;
-
 std::string make_seal(int version, const std::string& digest) {
   std::string seal = fmt::format("{}\nlayout {}\nxxh128 {}\n",
                                  kReducedBodyFormat, version, digest);
-  seal.resize(kSealSize, '\n');
+  seal.resize(kBodySealSize, '\n');
   return seal;
 }
 
@@ -267,8 +265,8 @@ void check_seal(const std::filesystem::path& file) {
     return InputError(fmt::format("'{}' {}", file.string(), what));
   };
   InputFile in(file, kReducedBody);
-  std::string seal(kSealSize, '\0');
-  const bool is_whole = in.read(seal.data(), kSealSize) == kSealSize;
+  std::string seal(kBodySealSize, '\0');
+  const bool is_whole = in.read(seal.data(), kBodySealSize) == kBodySealSize;
   const std::optional<int> version = version_of(seal);
   if (!version) {
     throw problem(
@@ -293,8 +291,8 @@ void check_seal(const std::filesystem::path& file) {
 // Writes the seal of a layout, or renews the present one.
 void write_seal(const std::filesystem::path& file, std::optional<int> version) {
   std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
-  std::string old(kSealSize, '\0');
-  stream.read(old.data(), kSealSize);
+  std::string old(kBodySealSize, '\0');
+  stream.read(old.data(), kBodySealSize);
   if (!version) version = version_of(old);
   if (!stream || !version) {
     throw InputError(fmt::format("'{}' cannot be sealed; is it a reduced body?",
@@ -331,7 +329,7 @@ void seal_body_file(const std::filesystem::path& file) {
 void write_body(const ReducedBody& body, const std::filesystem::path& file) {
   try {
     write_whole(file, [&](const std::filesystem::path& part) {
-      Hdf5File out = Hdf5File::create(part, kSealSize);
+      Hdf5File out = Hdf5File::create(part, kBodySealSize);
       write_content(out, body);
       out.close();
       write_seal(part, layout_of(body));

@@ -5,14 +5,13 @@
 
 #include "limber/common/files/hdf5_flatten.hpp"
 #include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/file/body_seal.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-constexpr std::size_t kFlatSealSize = 512;  // as body_file.cpp's
-
 std::string read_seal(const std::filesystem::path& file) {
-  std::string seal(kFlatSealSize, '\0');
+  std::string seal(kBodySealSize, '\0');
   std::ifstream(file, std::ios::binary)
       .read(seal.data(), static_cast<std::streamsize>(seal.size()));
   return seal;
