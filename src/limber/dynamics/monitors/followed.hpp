@@ -17,9 +17,11 @@ struct Extreme {
   double value = 0.0;  ///< [unit of the scalar]
   double time = 0.0;   ///< [s]
 
-  /// @returns whether it is the largest so far
+  /// @returns whether it is the largest so far, by more than round-off: the
+  ///          extreme of a constant is at its first time
   bool include(double v, double t) {
-    if (!(std::abs(v) > std::abs(value))) return false;
+    constexpr double kRoundOff = 1e-11;  // of a long run, relative
+    if (!(std::abs(v) > (1.0 + kRoundOff) * std::abs(value))) return false;
     *this = {v, t};
     return true;
   }

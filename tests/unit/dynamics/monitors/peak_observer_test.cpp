@@ -329,5 +329,16 @@ TEST(Peaks, OfARunThatEndsEarlyAreThoseUpToThere) {
   EXPECT_LE(peaks[0].time, state.t);
 }
 
+// A free spin's rate differs by the last bits from step to step.
+TEST(Extreme, OfAConstantIsAtItsFirstTimeWhateverItsRoundOff) {
+  Extreme extreme{0.0, 0.0};
+  for (int i = 0; i < 1000; ++i) {
+    extreme.include(-0.3 * (1.0 + 1e-15 * i), 0.001 * i);
+  }
+  EXPECT_EQ(extreme, (Extreme{-0.3, 0.0}));
+  EXPECT_TRUE(extreme.include(0.3 * (1.0 + 1e-10), 2.0));
+  EXPECT_EQ(extreme.time, 2.0);
+}
+
 }  // namespace
 }  // namespace limber::dynamics::peak_observer_test
