@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -29,6 +30,13 @@ class Archive {
  public:
   /// For writing.
   Archive() = default;
+  /// For writing, into the memory of `spare`, whose numbers are lost.
+  [[nodiscard]] static Archive write_into(std::vector<double> spare) {
+    Archive archive;
+    archive.numbers_ = std::move(spare);
+    archive.numbers_.clear();
+    return archive;
+  }
   /// For reading `numbers` that an archive has written.
   explicit Archive(std::vector<double> numbers)
       : numbers_(std::move(numbers)), reads_(true) {}
@@ -37,6 +45,17 @@ class Archive {
   /// When reading: whether unread numbers remain.
   [[nodiscard]] bool has_more() const { return next_ < numbers_.size(); }
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
+  /// What was written; ends the archive.
+  [[nodiscard]] std::vector<double> take_numbers() {
+    return std::move(numbers_);
+  }
+  /// When reading: the numbers that remain.
+  [[nodiscard]] std::vector<double> take_rest() {
+    numbers_.erase(numbers_.begin(),
+                   numbers_.begin() + static_cast<std::ptrdiff_t>(next_));
+    next_ = 0;
+    return std::move(numbers_);
+  }
 
   /// Writes the values, or reads them.
   /// @throws InputError when reading past the end.
@@ -52,6 +71,17 @@ class Archive {
     }
     if (next_ == numbers_.size()) fail();
     value = numbers_[next_++];
+  }
+
+  /// `count` numbers in a row.
+  void pass(double* values, std::size_t count) {
+    if (!reads_) {
+      numbers_.insert(numbers_.end(), values, values + count);
+      return;
+    }
+    if (count > numbers_.size() - next_) fail();
+    std::copy_n(numbers_.data() + next_, count, values);
+    next_ += count;
   }
 
   /// The length of a list that follows.
@@ -110,7 +140,11 @@ void exchange(Archive& archive, std::vector<Value>& values) {
   std::size_t size = values.size();
   archive.pass_size(size);
   values.resize(size);
-  for (Value& value : values) exchange(archive, value);
+  if constexpr (std::same_as<Value, double>) {
+    archive.pass(values.data(), size);
+  } else {
+    for (Value& value : values) exchange(archive, value);
+  }
 }
 
 template <typename Value, std::size_t n>
@@ -129,9 +163,7 @@ void exchange(Archive& archive, Eigen::PlainObjectBase<Derived>& values) {
     values.resize(static_cast<Eigen::Index>(rows),
                   static_cast<Eigen::Index>(columns));
   }
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    archive.pass(values.data()[i]);
-  }
+  archive.pass(values.data(), static_cast<std::size_t>(values.size()));
 }
 
 inline void exchange(Archive& archive, Quaternion& q) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
@@ -54,9 +55,10 @@ void include_largest(VectorX& largest, const VectorX& values) {
 
 }  // namespace
 
-LevelObserver::Observed::Observed(const SystemModel& model,
-                                  BodyIndex index_of_body,
-                                  const std::vector<double>& reaches)
+LevelObserver::Observed::Observed(
+    const SystemModel& model, BodyIndex index_of_body,
+    const std::shared_ptr<const MovedNodes>& nodes,
+    const std::vector<double>& reaches)
     : body(index_of_body),
       J0_inverse(model.bodies[index(body)].J0.inverse()),
       flexibility(
@@ -64,8 +66,9 @@ LevelObserver::Observed::Observed(const SystemModel& model,
               .cwiseInverse()),
       omega(flexbody::rest_stiffness(model.bodies[index(body)].elasticity)
                 .cwiseSqrt()),
-      own(std::make_shared<DisplacementMeasure>(model.bodies[index(body)])),
-      anywhere(std::make_shared<DisplacementMeasure>(model, body, reaches)),
+      own(std::make_shared<DisplacementMeasure>(nodes)),
+      anywhere(
+          std::make_shared<DisplacementMeasure>(nodes, model, body, reaches)),
       force_bound(model.bodies[index(body)].reduced->levers),
       inertial(*anywhere),
       loads(*anywhere),
@@ -98,11 +101,16 @@ LevelObserver::LevelObserver(const SystemModel& model)
       jumps_(find_jumps(model)),
       no_memory_(model.pair_memory_size) {
   const std::vector<double> reaches = find_reaches(model);
+  // Links of one reduced body have the same nodes.
+  std::map<const flexbody::ReducedBody*, std::shared_ptr<const MovedNodes>>
+      nodes;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     // Without S1 and S2 nothing is known of what a level leaves out.
     const auto& reduced = model.bodies[b].reduced;
     if (!reduced || !reduced->inertia_record.gap.empty()) continue;
-    observed_.emplace_back(model, static_cast<BodyIndex>(b), reaches);
+    auto& of_body = nodes[reduced.get()];
+    if (!of_body) of_body = std::make_shared<MovedNodes>(reduced);
+    observed_.emplace_back(model, static_cast<BodyIndex>(b), of_body, reaches);
   }
 }
 

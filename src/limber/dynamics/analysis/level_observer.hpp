@@ -97,6 +97,7 @@ class LevelObserver {
  private:
   struct Observed {
     Observed(const SystemModel& model, BodyIndex body,
+             const std::shared_ptr<const MovedNodes>& nodes,
              const std::vector<double>& reaches);
     BodyIndex body;
     Matrix3 J0_inverse;  ///< [1/(kg m^2)]

@@ -124,17 +124,21 @@ std::vector<double> find_reaches(const SystemModel& model) {
   return reaches;
 }
 
-DisplacementMeasure::DisplacementMeasure(const BodyModel& body)
-    : reduced_(body.reduced) {
-  LIMBER_EXPECT(reduced_ != nullptr);
+const DisplacementTree& MovedNodes::tree() const {
+  if (!tree_) tree_.emplace(reduced_->rows.x_B, reduced_->rows.Phi_B);
+  return *tree_;
+}
+
+DisplacementMeasure::DisplacementMeasure(
+    std::shared_ptr<const MovedNodes> nodes)
+    : nodes_(std::move(nodes)) {
   find_mode_sizes();
 }
 
-DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
-                                         BodyIndex body,
-                                         const std::vector<double>& reaches)
-    : reduced_(model.bodies[index(body)].reduced) {
-  LIMBER_EXPECT(reduced_ != nullptr);
+DisplacementMeasure::DisplacementMeasure(
+    std::shared_ptr<const MovedNodes> nodes, const SystemModel& model,
+    BodyIndex body, const std::vector<double>& reaches)
+    : nodes_(std::move(nodes)) {
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const Attachment& a = model.attachments[i];
     if (a.body != body || reaches[i] == 0.0) continue;
@@ -144,11 +148,12 @@ DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
 }
 
 void DisplacementMeasure::find_mode_sizes() {
-  const Eigen::Index m = reduced_->lambda.size();
+  const flexbody::ReducedBody& reduced = nodes_->reduced();
+  const Eigen::Index m = reduced.lambda.size();
   mode_sizes_.resize(m);
   node_sizes_.resize(m);
   for (Eigen::Index k = 0; k < m; ++k) {
-    node_sizes_[k] = find_largest(reduced_->rows.Phi_B.col(k));
+    node_sizes_[k] = find_largest(reduced.rows.Phi_B.col(k));
     mode_sizes_[k] = node_sizes_[k];
     for (const Carried& end : carried_) {
       mode_sizes_[k] =
@@ -159,7 +164,7 @@ void DisplacementMeasure::find_mode_sizes() {
 }
 
 double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
-  LIMBER_EXPECT(eta.size() == reduced_->lambda.size());
+  LIMBER_EXPECT(eta.size() == nodes_->reduced().lambda.size());
   if (eta.size() == 0) return 0.0;
   double largest = 0.0;
   for (const Carried& end : carried_) {
@@ -168,8 +173,7 @@ double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
   }
   // Skips the many own nodes if they cannot be the largest.
   if (node_sizes_.dot(eta.cwiseAbs()) <= largest) return largest;
-  if (!nodes_) nodes_.emplace(reduced_->rows.x_B, reduced_->rows.Phi_B);
-  return nodes_->find_largest(eta, largest);
+  return nodes_->tree().find_largest(eta, largest);
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "limber/dynamics/equations/displacement_tree.hpp"
@@ -23,21 +24,39 @@ namespace limber::dynamics {
 /// to what holds the body.
 [[nodiscard]] std::vector<double> find_reaches(const SystemModel& model);
 
+/// The stored nodes of a body in a DisplacementTree, which costs as much as
+/// hundreds of steps and is made at first use: not for several threads.
+class MovedNodes {
+ public:
+  explicit MovedNodes(std::shared_ptr<const flexbody::ReducedBody> reduced)
+      : reduced_(std::move(reduced)) {}
+  [[nodiscard]] const flexbody::ReducedBody& reduced() const {
+    return *reduced_;
+  }
+  [[nodiscard]] const DisplacementTree& tree() const;
+
+ private:
+  std::shared_ptr<const flexbody::ReducedBody> reduced_;
+  mutable std::optional<DisplacementTree> tree_;
+};
+
 /// Largest displacement that modal coordinates of one body cause.
 ///
 /// Equation   max over stored nodes |Phi_n eta|, and over the ends of couplers
 ///            |Phi_F eta| + reach |Psi_F eta|
 /// Limits     the second is the displacement of the bodies that it carries: a
 ///            bound, as if every joint transmitted every rotation. Not for
-///            several threads: the tree of the nodes, which costs as much as
-///            hundreds of steps, is made at first use
+///            several threads (MovedNodes)
 class DisplacementMeasure {
  public:
   /// Measures the body's own nodes.
-  explicit DisplacementMeasure(const BodyModel& body);
+  explicit DisplacementMeasure(const BodyModel& body)
+      : DisplacementMeasure(std::make_shared<MovedNodes>(body.reduced)) {}
+  explicit DisplacementMeasure(std::shared_ptr<const MovedNodes> nodes);
   /// Measures its own nodes and all bodies that its couplers carry.
   /// @param reaches of all bodies, by find_reach [m]
-  DisplacementMeasure(const SystemModel& model, BodyIndex body,
+  DisplacementMeasure(std::shared_ptr<const MovedNodes> nodes,
+                      const SystemModel& model, BodyIndex body,
                       const std::vector<double>& reaches);
 
   /// [m] @param eta m modal coordinates [kg^1/2 m]
@@ -53,11 +72,10 @@ class DisplacementMeasure {
   };
   void find_mode_sizes();
 
-  std::shared_ptr<const flexbody::ReducedBody> reduced_;
+  std::shared_ptr<const MovedNodes> nodes_;
   std::vector<Carried> carried_;
   VectorX mode_sizes_;
   VectorX node_sizes_;  ///< the same of own nodes
-  mutable std::optional<DisplacementTree> nodes_;
 };
 
 /// Peak of a DisplacementMeasure over many modal coordinates. Most are rejected

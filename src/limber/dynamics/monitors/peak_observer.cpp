@@ -259,7 +259,7 @@ std::vector<double> PeakObserver::take_log() {
   Archive log;
   write_intervals(envelopes_, logged_until_, sample(0).state.t, log);
   logged_until_ = sample(2).state.t;
-  return log.numbers();
+  return log.take_numbers();
 }
 
 void PeakObserver::restore_log(const std::vector<double>& numbers) {

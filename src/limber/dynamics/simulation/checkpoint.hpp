@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "limber/common/records/archive.hpp"
+
 namespace limber::dynamics {
 
 /// A simulation between two steps, or before the first, as numbers. With the
@@ -13,7 +15,8 @@ namespace limber::dynamics {
 /// to the bit.
 struct Checkpoint {
   double time = 0.0;  ///< [s]
-  /// Of an Archive; of a run before its first step none [mixed units].
+  /// Of an Archive; of a run before its first step only those of outer loops
+  /// (CheckpointKeeper::write_outer) [mixed units].
   std::vector<double> numbers = {};
   /// Data that grow with time [mixed units]: when saved, those since the last
   /// checkpoint; to resume, those of all checkpoints, concatenated.
@@ -31,9 +34,8 @@ struct CheckpointKeeper {
   /// Called between two steps; empty: no checkpoints. An interrupted run that
   /// has made no new one since its start or the last call does not call it.
   std::function<void(const Checkpoint&)> keep;
-  /// Adds data of outer loops to every new checkpoint when it is made; may be
-  /// empty.
-  std::function<Checkpoint(Checkpoint)> complete = {};
+  /// Writes data of outer loops before those of the run; may be empty.
+  std::function<void(Archive&)> write_outer = {};
 };
 
 /// Checkpoints to save, and one to resume from.

@@ -162,7 +162,7 @@ Checkpoint Simulator::save() {
   parts_->limit.exchange_memory(archive);
   std::vector<double> numbers = parts_->loop.save(parts_->state).numbers;
   archive(numbers);
-  return {parts_->state.t, archive.numbers()};
+  return {parts_->state.t, archive.take_numbers()};
 }
 
 void Simulator::restore(const Checkpoint& checkpoint) {

@@ -172,20 +172,16 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 Continuation add_memory(LinearLimit& limit, RoundingLimit& rounding,
                         const Continuation& inner) {
   Continuation outer = inner;
-  LIMBER_EXPECT(!inner.keeper.complete);
-  outer.keeper.complete = [&limit, &rounding](Checkpoint run) {
-    Archive archive;
+  LIMBER_EXPECT(!inner.keeper.write_outer);
+  const auto exchange = [&limit, &rounding](Archive& archive) {
     limit.exchange_memory(archive);
     rounding.exchange_memory(archive);
-    archive(run.numbers);
-    run.numbers = archive.numbers();
-    return run;
   };
+  outer.keeper.write_outer = exchange;
   if (inner.from) {
     Archive archive(inner.from->numbers);
-    limit.exchange_memory(archive);
-    rounding.exchange_memory(archive);
-    archive(outer.from->numbers);
+    exchange(archive);
+    outer.from->numbers = archive.take_rest();
   }
   return outer;
 }

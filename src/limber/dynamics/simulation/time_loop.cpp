@@ -127,18 +127,19 @@ void TimeLoop::refresh() {
 
 Checkpoint TimeLoop::save(SystemState& state) {
   refresh();
-  return make_checkpoint(state);
-}
-
-Checkpoint TimeLoop::make_checkpoint(SystemState& state) {
   Archive archive;
   exchange_memory(archive, state);
-  return {state.t, archive.numbers(), {}, visits_};
+  return {state.t, archive.take_numbers(), {}, visits_};
 }
 
-void TimeLoop::hold(Checkpoint checkpoint, const CheckpointKeeper& keeper) {
-  checkpoint_ = keeper.complete ? keeper.complete(std::move(checkpoint))
-                                : std::move(checkpoint);
+void TimeLoop::hold_checkpoint(SystemState& state,
+                               const CheckpointKeeper& keeper) {
+  // It has about the size of the last one.
+  Archive archive = Archive::write_into(
+      checkpoint_ ? std::move(checkpoint_->numbers) : std::vector<double>());
+  if (keeper.write_outer) keeper.write_outer(archive);
+  if (has_started_) exchange_memory(archive, state);
+  checkpoint_ = {state.t, archive.take_numbers(), {}, visits_};
 }
 
 void TimeLoop::keep_checkpoint(const CheckpointKeeper& keeper) {
@@ -341,7 +342,7 @@ void TimeLoop::run(SystemState& state, const Visit& visit,
                    const Progress& progress, const CheckpointKeeper& keeper) {
   try {
     if (!has_started_) {
-      if (keeper.keep) hold(Checkpoint{state.t}, keeper);
+      if (keeper.keep) hold_checkpoint(state, keeper);
       begin(state);
       if (starts_with_output_) visit_output(state, losses(), visit);
     }
@@ -410,7 +411,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   tell_progress(state, progress);
   if (is_refresh_due()) {
     refresh();
-    if (keeper.keep) hold(make_checkpoint(state), keeper);
+    if (keeper.keep) hold_checkpoint(state, keeper);
     const std::chrono::duration<double> since = Clock::now() - kept_;
     if (since.count() >= keeper.interval) keep_checkpoint(keeper);
   }

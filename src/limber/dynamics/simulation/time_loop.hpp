@@ -135,8 +135,7 @@ class TimeLoop {
   void check(const SystemState& state);
   [[nodiscard]] bool is_refresh_due() const;
   void refresh();
-  [[nodiscard]] Checkpoint make_checkpoint(SystemState& state);
-  void hold(Checkpoint checkpoint, const CheckpointKeeper& keeper);
+  void hold_checkpoint(SystemState& state, const CheckpointKeeper& keeper);
   void keep_checkpoint(const CheckpointKeeper& keeper);
   [[nodiscard]] double find_share(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);

@@ -198,7 +198,7 @@ class ToleranceLoop {
     std::vector<double> numbers = inner.numbers;
     archive(numbers, course_);
     exchange_costs(archive, statistics_);
-    return {inner.time, archive.numbers(), take_log(inner)};
+    return {inner.time, archive.take_numbers(), take_log(inner)};
   }
 
   // The contents of the two current records that are in no log yet, of the
@@ -211,7 +211,7 @@ class ToleranceLoop {
     log(before, now);
     before_logged_ = before_.states.size();
     now_logged_ = inner.outputs;
-    return log.numbers();
+    return log.take_numbers();
   }
 
   void unwrap(const Checkpoint& checkpoint) {

@@ -21,6 +21,13 @@ constexpr double kRoundoff = 1e-12;
 // Each coupler's end carries all that lies beyond it, but not the larger part
 // of the chain, which holds the body; here half of it is not more than the
 // rest.
+// Of a body's own nodes and of all bodies that it carries.
+DisplacementMeasure measure_anywhere(const SystemModel& model, BodyIndex body,
+                                     const std::vector<double>& reaches) {
+  return {std::make_shared<MovedNodes>(model.bodies[index(body)].reduced),
+          model, body, reaches};
+}
+
 TEST(Reaches, OfAChainAreTheDiametersBeyond) {
   const SystemModel model = make_uncoupled_chain(4);
   const double diameter = model.bodies[0].reduced->size.norm();
@@ -76,7 +83,7 @@ TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
       DisplacementMeasure(model.bodies[0]).calc_displacement(eta);
   ASSERT_GT(carried, own);
   EXPECT_NEAR(
-      DisplacementMeasure(model, BodyIndex(0), reaches).calc_displacement(eta),
+      measure_anywhere(model, BodyIndex(0), reaches).calc_displacement(eta),
       carried, kRoundoff * carried);
 }
 
@@ -84,7 +91,8 @@ TEST(DisplacementMeasure, OfOneModeIsThatModesSizeWhateverIsCarried) {
   const SystemModel model = make_uncoupled_chain(2);
   for (const double reach : {0.0, 0.05, 0.3, 20.0}) {
     const std::vector<double> reaches(model.attachments.size(), reach);
-    const DisplacementMeasure measure(model, BodyIndex(0), reaches);
+    const DisplacementMeasure measure =
+        measure_anywhere(model, BodyIndex(0), reaches);
     const Eigen::Index m = measure.mode_sizes().size();
     for (Eigen::Index k = 0; k < m; ++k) {
       const double size = measure.mode_sizes()[k];
@@ -96,7 +104,8 @@ TEST(DisplacementMeasure, OfOneModeIsThatModesSizeWhateverIsCarried) {
 
 TEST(PeakDisplacement, PassesOverNoneThatIsAThousandthLarger) {
   const SystemModel model = make_uncoupled_chain(3);
-  const DisplacementMeasure measure(model, BodyIndex(1), find_reaches(model));
+  const DisplacementMeasure measure =
+      measure_anywhere(model, BodyIndex(1), find_reaches(model));
   PeakDisplacement peak(measure);
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
