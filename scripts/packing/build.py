@@ -4,6 +4,7 @@ import datetime
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -47,6 +48,10 @@ class Builds:
         self.whole = folder / "package"
         self.free = folder / "package-bsd"
 
+    @property
+    def has_playground(self):
+        return (self.whole / "src/app/playground.wasm").exists()
+
 
 def configure(folder, *options):
     run("cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
@@ -61,10 +66,22 @@ def compile_all(folder, has_wheel):
     run("cmake", "--build", builds.whole)
     if not (builds.whole / "src/app/view.html").exists():
         sys.exit("package: the build has no page of limber view; it said what it lacks")
+    compile_playground(builds.whole / "src/app")
     if has_wheel:
         configure(builds.free, "-DLIMBER_REDUCTION=OFF", "-DLIMBER_REFERENCE=OFF")
         run("cmake", "--build", builds.free, "--target", "limber_python")
     return builds
+
+
+def compile_playground(folder):
+    """The module of limber view --play, where its compiler is installed."""
+    if shutil.which("emcc") is None:
+        for name in ("js", "wasm"):  # of other sources
+            (folder / f"playground.{name}").unlink(missing_ok=True)
+        print("package: without the module of limber view --play, which needs emscripten "
+              "(scripts/install-deps --with-playground)")
+        return
+    run(SOURCE / "scripts/playground", folder, stdout=subprocess.DEVNULL)
 
 
 def install(build, component, root):

@@ -94,8 +94,9 @@ def write_documents(root, name, package, builds):
         shutil.rmtree(doc.parent)
     doc.mkdir(parents=True)
     programs = [file for file in root.rglob("*") if file.is_file() and is_loadable(file)]
-    parts = sbom.list_parts(sbom.list_libraries(*programs).values(), package["headers"])
     has_page = package.get("page", False)
+    headers = sbom.list_headers(builds, package["headers"]) if has_page else package["headers"]
+    parts = sbom.list_parts(sbom.list_libraries(*programs).values(), headers)
     sbom.write_sbom(doc / "sbom.cdx.json", name, package["licence"], parts, has_page)
     write_gzip(doc / "changelog.gz", (build.SOURCE / "CHANGELOG.md").read_bytes())
     text = ["Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/",
@@ -103,7 +104,7 @@ def write_documents(root, name, package, builds):
             "Files: *", "Copyright: 2026, The Limber authors", "License: BSD-3-Clause",
             indent((build.SOURCE / "LICENSE").read_text(), True), "",
             "Compiled in, with their own licences:", ""]
-    for part, licence in sbom.list_compiled_in(package["headers"], has_page, builds):
+    for part, licence in sbom.list_compiled_in(headers, has_page, builds):
         text += [f"== {part}", licence]
     (doc / "copyright").write_text("\n".join(text))
     (doc / "copyright").chmod(0o644)

@@ -14,6 +14,11 @@ HEADERS = {
              "nlohmann-json3-dev": "MIT"},
     "reduction": {"libspectra-dev": "MPL-2.0"},
     "python": {"pybind11-dev": "BSD-3-Clause"},
+    # The module of limber view --play, with emscripten's C and C++ libraries.
+    "playground": {"emscripten": "MIT", "liburdfdom-model3.0": "BSD-3-Clause",
+                   "libtinyxml2.6.2v5": "Zlib", "libconsole-bridge1.0": "BSD-3-Clause",
+                   "libfmt-dev": "MIT", "libxxhash-dev": "BSD-2-Clause",
+                   "libtomlplusplus-dev": "MIT"},
 }
 PAGE = {"three": "MIT", "uplot": "MIT"}
 # Libraries that Limber calls itself; of others the names in their copyright files are listed.
@@ -25,7 +30,7 @@ LICENCES = {
     "libconsole-bridge1.0": "BSD-3-Clause", "libgmsh4.8": "GPL-2.0-or-later",
     "libcholmod3": "GPL-2.0-or-later", "libopenblas0-pthread": "BSD-3-Clause",
     "libsimbody3.7": "Apache-2.0", **HEADERS["core"], **HEADERS["reduction"],
-    **HEADERS["python"], **PAGE}
+    **HEADERS["python"], **HEADERS["playground"], **PAGE}
 # Part of every Debian, and of every Linux that runs what is made here.
 SYSTEM = re.compile(r"/(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|anl))\.so")
 
@@ -44,6 +49,11 @@ def list_libraries(*programs):
             if match and not SYSTEM.search(match.group(2)):
                 found[match.group(1)] = pathlib.Path(match.group(2)).resolve()
     return dict(sorted(found.items()))
+
+
+def list_headers(builds, groups):
+    """Groups of HEADERS in a package that has the command."""
+    return groups + (["playground"] if builds.has_playground else [])
 
 
 def find_packages(files):

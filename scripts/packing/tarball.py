@@ -72,7 +72,7 @@ def stage(builds, work, examples="*"):
     libraries[sbom.CHOLMOD.name] = sbom.CHOLMOD.resolve()
     bundle(libraries, folder / "lib/limber",
            {command: "../lib/limber", **dict.fromkeys(helpers, "../../lib/limber")})
-    headers = ["core", "reduction"]
+    headers = sbom.list_headers(builds, ["core", "reduction"])
     shutil.rmtree(folder / "share/doc")
     shutil.copyfile(build.SOURCE / "LICENSE", folder / "LICENSE")
     (folder / "README").write_text(READ_ME.format(version=build.VERSION))
