@@ -21,7 +21,7 @@ unsigned find_named_mask(const std::string& name) {
 
 }  // namespace
 
-bool DeckAttachments::add_data(const TextScanner& at, const Keyword& keyword,
+void DeckAttachments::add_data(const DeckPlace& at, const Keyword& keyword,
                                std::string_view line) {
   if (keyword.name == "MASS") {
     const std::string_view field = split_commas(line)[0];
@@ -30,16 +30,13 @@ bool DeckAttachments::add_data(const TextScanner& at, const Keyword& keyword,
       at.fail(
           fmt::format("*MASS is '{}'. Expected a number >= 0.", echo(field)));
     masses_.push_back({keyword.get("ELSET"), mass});
-    return true;
+  } else if (keyword.name == "BOUNDARY") {
+    add_support(at, line);
   }
-  if (keyword.name != "BOUNDARY") return false;
-  add_support(at, line);
-  return true;
 }
 
 /// Node or set; first and last component, or the name of a kind.
-void DeckAttachments::add_support(const TextScanner& at,
-                                  std::string_view line) {
+void DeckAttachments::add_support(const DeckPlace& at, std::string_view line) {
   const std::vector<std::string_view> fields = split_commas(line);
   if (fields.size() < 2) return;
   Support support{to_upper(std::string(fields[0])), 0};
@@ -58,12 +55,6 @@ void DeckAttachments::add_support(const TextScanner& at,
       support.mask |= 1U << static_cast<unsigned>(i - 1);
   }
   supports_.push_back(std::move(support));
-}
-
-void DeckAttachments::take(DeckAttachments part) {
-  masses_.insert(masses_.end(), part.masses_.begin(), part.masses_.end());
-  supports_.insert(supports_.end(), part.supports_.begin(),
-                   part.supports_.end());
 }
 
 std::set<long> DeckAttachments::find_held(const DeckSets& node_sets) const {

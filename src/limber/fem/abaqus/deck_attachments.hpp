@@ -19,12 +19,9 @@ struct DeckMass {
 /// *MASS and *BOUNDARY of an input file.
 class DeckAttachments {
  public:
-  /// @returns whether the line is theirs
   /// @throws InputError with file and line
-  bool add_data(const TextScanner& at, const Keyword& keyword,
+  void add_data(const DeckPlace& at, const Keyword& keyword,
                 std::string_view line);
-  /// Adds those of a part.
-  void take(DeckAttachments part);
 
   [[nodiscard]] const std::vector<DeckMass>& masses() const { return masses_; }
   /// Nodes that are held in 1, 2 and 3.
@@ -35,7 +32,7 @@ class DeckAttachments {
     std::string of;     // a set of nodes, or a node's number
     unsigned mask = 0;  // bit i: component i + 1, of the first three
   };
-  void add_support(const TextScanner& at, std::string_view line);
+  void add_support(const DeckPlace& at, std::string_view line);
 
   std::vector<DeckMass> masses_;
   std::vector<Support> supports_;

@@ -8,7 +8,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "limber/common/pose.hpp"
 #include "limber/common/types.hpp"
 #include "limber/fem/abaqus/deck_attachments.hpp"
 #include "limber/fem/abaqus/deck_materials.hpp"
@@ -58,9 +57,7 @@ struct DeckContent {
   DeckCounts constraints;  ///< and contact
   DeckCounts unused;       ///< supports, loads
   DeckCounts laws;         ///< of materials, beside linear elasticity
-
-  /// Adds a part's content, whose numbers and names are its own, moved.
-  void take(DeckContent part, const Pose& pose);
+  std::vector<std::string> notices;
 
   /// Null without it.
   [[nodiscard]] const DeckElement* find(long number) const;

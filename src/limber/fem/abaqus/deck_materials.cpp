@@ -15,12 +15,8 @@
 namespace limber::fem {
 namespace {
 
-std::string place_at(const TextScanner& at) {
-  return fmt::format("{}:{}", at.file().string(), at.number());
-}
-
 /// Without blanks at the end; blank ones in between are 0.
-std::vector<double> read_numbers(const TextScanner& at, std::string_view line) {
+std::vector<double> read_numbers(const DeckPlace& at, std::string_view line) {
   std::vector<std::string_view> fields = split_commas(line);
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
   std::vector<double> numbers;
@@ -91,21 +87,13 @@ MaterialAxes move_axes(MaterialAxes axes, const Pose& pose) {
 
 }  // namespace
 
-void DeckMaterials::take(DeckMaterials part, const Pose& pose) {
-  for (Section& section : part.sections_) {
-    section.pose = pose;
-    sections_.push_back(std::move(section));
-  }
-  materials_.merge(part.materials_);
-  orientations_.merge(part.orientations_);
-}
-
-void DeckMaterials::begin(const TextScanner& at, const Keyword& keyword) {
+void DeckMaterials::begin(const DeckPlace& at, const Keyword& keyword,
+                          const Pose& pose) {
   const std::string& name = keyword.name;
   if (name == "MATERIAL") {
     material_ = keyword.get("NAME");
     const auto [entry, is_new] = materials_.try_emplace(material_);
-    entry->second.place = place_at(at);
+    entry->second.place = at.text();
     if (!is_new)
       at.fail(fmt::format("material {} is there twice. Expected each once.",
                           echo(material_)));
@@ -119,7 +107,7 @@ void DeckMaterials::begin(const TextScanner& at, const Keyword& keyword) {
   } else if (name == "ORIENTATION") {
     Orientation& orientation = orientations_[keyword.get("NAME")];
     const std::string system = keyword.get("SYSTEM");
-    orientation.place = place_at(at);
+    orientation.place = at.text();
     orientation.is_cylindrical = system.starts_with("CYL");
     const bool is_known = system.empty() || system.starts_with("RECT") ||
                           orientation.is_cylindrical;
@@ -130,11 +118,11 @@ void DeckMaterials::begin(const TextScanner& at, const Keyword& keyword) {
           fmt::format("DEFINITION={}", echo(keyword.get("DEFINITION")));
   } else if (name.ends_with("SECTION") && keyword.has("ELSET")) {
     sections_.push_back({keyword.get("ELSET"), keyword.get("MATERIAL"),
-                         keyword.get("ORIENTATION"), place_at(at)});
+                         keyword.get("ORIENTATION"), at.text(), pose});
   }
 }
 
-bool DeckMaterials::add_data(const TextScanner& at, const Keyword& keyword,
+bool DeckMaterials::add_data(const DeckPlace& at, const Keyword& keyword,
                              std::string_view line) {
   if (keyword.name == "ELASTIC") {
     auto& elastic = *materials_[material_].elastic;

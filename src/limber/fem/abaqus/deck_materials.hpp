@@ -9,6 +9,7 @@
 
 #include "limber/common/pose.hpp"
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/text/deck_place.hpp"
 #include "limber/fem/text/keyword_deck.hpp"
 
 namespace limber::fem {
@@ -28,15 +29,12 @@ class DeckMaterials {
   };
 
   /// A keyword of a material, an orientation or a section; others end a
-  /// material's data.
-  void begin(const TextScanner& at, const Keyword& keyword);
+  /// material's data. @param pose of the instance that it is in
+  void begin(const DeckPlace& at, const Keyword& keyword, const Pose& pose);
   /// @returns false if the line is not of *ELASTIC, *DENSITY or *ORIENTATION
   /// @throws InputError with file and line for what is no number
-  bool add_data(const TextScanner& at, const Keyword& keyword,
+  bool add_data(const DeckPlace& at, const Keyword& keyword,
                 std::string_view line);
-
-  /// Adds those of a part, which an instance moves.
-  void take(DeckMaterials part, const Pose& pose);
 
   [[nodiscard]] const std::vector<Section>& sections() const {
     return sections_;

@@ -109,10 +109,10 @@ class SolidDeckReader {
     for (const auto& [what, entry] : refused_)
       problems.push_back(fmt::format(
           "{}: {}{} would be lost. Expected solid elements (C3D4, C3D10, "
-          "C3D8, C3D20, C3D6, C3D15, C3D5) and *MASS only; beams and shells "
-          "beside solids are not supported: leave it out and model it in the "
-          "scene by links and joints, bring the body by its matrices, or "
-          "ignore {} to go on without.",
+          "C3D8, C3D20, C3D6, C3D15, C3D5) and *MASS; beams, shells, rigid "
+          "bodies and couplings where nothing is ignored. Leave it out and "
+          "model it in the scene by links and joints, bring the body by its "
+          "matrices, or ignore {} to go on without.",
           entry.first, what,
           entry.count == 1 ? std::string()
                            : fmt::format(" ({}, the first here)", entry.count),
@@ -310,6 +310,8 @@ class SolidDeckReader {
 
   // ---- notices
   void report() {
+    deck_.notices.insert(deck_.notices.end(), content_.notices.begin(),
+                         content_.notices.end());
     report_unused_nodes();
     report_types();
     const auto tell = [this](const DeckCounts& counts, const char* why) {

@@ -57,6 +57,7 @@ struct MatrixModel {
   /// The last nodes, on faces of shells and outlines of beams, that are there
   /// for pictures only.
   std::size_t drawn = 0;
+  bool is_structure = false;         ///< of beams, shells and solids of a deck
   std::vector<std::string> notices;  ///< what is questionable
 };
 

@@ -197,10 +197,10 @@ class BulkReader {
         *refused.first,
         fmt::format(
             "{}{} {} and would be lost. Expected solid elements (CTETRA, "
-            "CPENTA, CHEXA, CPYRAM), CONM2, RBE2 and RBE3 only; beams and "
-            "shells beside solids are not supported: mesh it with solids, or "
-            "remove it and model it in the scene by links and joints; or "
-            "ignore {} to go on without.",
+            "CPENTA, CHEXA, CPYRAM), CONM2, RBE2 and RBE3; beams and "
+            "shells with properties where nothing is ignored. Mesh it with "
+            "solids, or remove it and model it in the scene by links and "
+            "joints; or ignore {} to go on without.",
             name,
             refused.count == 1
                 ? std::string()

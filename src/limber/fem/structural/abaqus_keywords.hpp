@@ -10,13 +10,9 @@
 namespace limber::fem {
 
 /// They constrain, make or move nodes, and are not read.
-inline constexpr std::array<std::string_view, 23> kLost = {
+inline constexpr std::array<std::string_view, 19> kLost = {
     "EQUATION",
-    "MPC",
     "TIE",
-    "COUPLING",
-    "KINEMATIC",
-    "DISTRIBUTING",
     "KINEMATIC COUPLING",
     "DISTRIBUTING COUPLING",
     "SHELL TO SOLID COUPLING",
@@ -36,13 +32,12 @@ inline constexpr std::array<std::string_view, 23> kLost = {
     "SUBSTRUCTURE PROPERTY"};
 
 /// They hold nothing of a body; all others that are not read are listed.
-inline constexpr std::array<std::string_view, 23> kOfAnalysis = {
-    "HEADING",   "PREPRINT",    "PART",         "END PART",
-    "ASSEMBLY",  "INSTANCE",    "END INSTANCE", "END ASSEMBLY",
-    "SURFACE",   "STEP",        "END STEP",     "STATIC",
-    "FREQUENCY", "OUTPUT",      "NODE OUTPUT",  "ELEMENT OUTPUT",
-    "NODE FILE", "EL FILE",     "NODE PRINT",   "EL PRINT",
-    "RESTART",   "FILE FORMAT", "INCLUDE"};
+inline constexpr std::array<std::string_view, 19> kOfAnalysis = {
+    "HEADING",      "PREPRINT",    "SOLID SECTION", "ASSEMBLY",
+    "END ASSEMBLY", "STEP",        "END STEP",      "STATIC",
+    "FREQUENCY",    "OUTPUT",      "NODE OUTPUT",   "ELEMENT OUTPUT",
+    "NODE FILE",    "EL FILE",     "NODE PRINT",    "EL PRINT",
+    "RESTART",      "FILE FORMAT", "INCLUDE"};
 
 /// Whether the body would move otherwise without this keyword's effect.
 [[nodiscard]] inline bool loses_motion(std::string_view keyword) {

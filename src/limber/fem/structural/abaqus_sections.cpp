@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
   throw InputError(fmt::format("{}: {}", section.place, what));
 }
 
-double read_real(const TextScanner& at, std::string_view field) {
+double read_real(const DeckPlace& at, std::string_view field) {
   double value = 0.0;
   if (!field.empty() && !parse_real(field, value))
     at.fail(
@@ -42,6 +42,12 @@ double read_real(const AbaqusSection& section, std::size_t line,
   return value;
 }
 
+/// Numbers of *ELASTIC at one temperature, in lines of eight.
+std::size_t count_elastic(const std::string& kind) {
+  if (kind.starts_with("ANISO")) return 24;
+  return kind.starts_with("ENG") || kind.starts_with("ORTHO") ? 16 : 8;
+}
+
 Vector3 take_vector(const AbaqusSection& section, std::size_t line) {
   return {read_real(section, line, 0), read_real(section, line, 1),
           read_real(section, line, 2)};
@@ -49,7 +55,8 @@ Vector3 take_vector(const AbaqusSection& section, std::size_t line) {
 
 }  // namespace
 
-bool AbaqusSections::begin(const TextScanner& at, const Keyword& keyword) {
+bool AbaqusSections::begin(const DeckPlace& at, const Keyword& keyword,
+                           const Pose& pose) {
   const std::string& name = keyword.name;
   reading_ = name;
   if (name == "MATERIAL") {
@@ -59,32 +66,35 @@ bool AbaqusSections::begin(const TextScanner& at, const Keyword& keyword) {
           fmt::format("material {} is there twice. Expected a name of its "
                       "own.",
                       echo(name_)));
-    materials_[name_].place =
-        fmt::format("{}:{}", at.file().string(), at.number());
+    materials_[name_].place = at.text();
   } else if (name == "ELASTIC") {
     materials_[name_].kind = keyword.get("TYPE");
   } else if (name == "ORIENTATION") {
     name_ = keyword.get("NAME");
     const std::string system = keyword.get("SYSTEM");
+    orientations_[name_] = {};
     if (!system.empty() && !system.starts_with('R'))
-      at.fail("*ORIENTATION is curvilinear. Expected SYSTEM=RECTANGULAR.");
+      orientations_[name_].problem = fmt::format(
+          "{}: *ORIENTATION is curvilinear. Expected SYSTEM=RECTANGULAR.",
+          at.text());
   } else if (name == "BEAM SECTION" || name == "SHELL SECTION") {
-    begin_section(at, keyword);
+    begin_section(at, keyword, pose);
   } else if (name != "DENSITY") {
     reading_.clear();
   }
   return !reading_.empty();
 }
 
-void AbaqusSections::begin_section(const TextScanner& at,
-                                   const Keyword& keyword) {
+void AbaqusSections::begin_section(const DeckPlace& at, const Keyword& keyword,
+                                   const Pose& pose) {
   for (const char* key :
        {"OFFSET", "OFFSET1", "OFFSET2", "NODAL THICKNESS", "STACK DIRECTION"})
     if (keyword.has(key))
       at.fail(fmt::format("*{} has {}, which is not read. Expected none.",
                           echo(keyword.name), key));
   AbaqusSection section;
-  section.place = fmt::format("{}:{}", at.file().string(), at.number());
+  section.place = at.text();
+  section.pose = pose;
   section.elset = keyword.get("ELSET");
   section.is_beam = keyword.name.starts_with("BEAM");
   section.material = keyword.get("MATERIAL");
@@ -94,17 +104,16 @@ void AbaqusSections::begin_section(const TextScanner& at,
   sections_.push_back(std::move(section));
 }
 
-void AbaqusSections::add_data(const TextScanner& at, std::string_view line) {
+void AbaqusSections::add_data(const DeckPlace& at, std::string_view line) {
   const std::vector<std::string_view> fields = split_commas(line);
   if (reading_ == "ELASTIC") {
     Material& material = materials_[name_];
-    const std::size_t most = material.kind.starts_with("ENG") ? 16 : 8;
+    const std::size_t most = count_elastic(material.kind);
     if (material.elastic.size() >= most)
       at.fail("*ELASTIC depends on the temperature. Expected one line of it.");
     for (const std::string_view field : fields)
       material.elastic.push_back(read_real(at, field));
-    if (!material.kind.starts_with("ENG") || material.elastic.size() > 8)
-      material.elastic.resize(most);
+    if (material.elastic.size() > most - 8) material.elastic.resize(most);
   } else if (reading_ == "DENSITY") {
     if (!materials_[name_].density)
       materials_[name_].density = read_real(at, fields[0]);
@@ -118,33 +127,40 @@ void AbaqusSections::add_data(const TextScanner& at, std::string_view line) {
   }
 }
 
-/// Points on axis 1 and in the plane 1 2; then the axis of a further rotation,
-/// and its angle.
-void AbaqusSections::add_orientation(const TextScanner& at,
+/// Points on axis 1 and in the plane 1 2, and the origin; then the axis of a
+/// further rotation, and its angle.
+void AbaqusSections::add_orientation(const DeckPlace& at,
                                      std::string_view line) {
+  Orientation& orientation = orientations_[name_];
+  if (!orientation.problem.empty()) return;
   std::vector<double> values;
   for (const std::string_view field : split_commas(line))
     values.push_back(read_real(at, field));
-  values.resize(6);
-  if (axes_.contains(name_)) {
+  values.resize(9);
+  if (orientation.axes) {
     if (values[0] != 3.0 && values[1] != 0.0)
-      at.fail(
-          "*ORIENTATION rotates about another axis than 3. Expected 3, the "
-          "normal of the shell.");
-    orientations_[name_] =
-        exp_rotation(kDegree * values[1] * axes_[name_].col(2)) *
-        Vector3(axes_[name_].col(0));
+      orientation.problem = fmt::format(
+          "{}: *ORIENTATION rotates about another axis than 3. Expected 3, the "
+          "normal of the shell.",
+          at.text());
+    const Matrix3& axes = *orientation.axes;
+    orientation.axis =
+        exp_rotation(kDegree * values[1] * axes.col(2)) * Vector3(axes.col(0));
     return;
   }
-  const Vector3 a(values[0], values[1], values[2]);
-  const Vector3 normal = a.cross(Vector3(values[3], values[4], values[5]));
+  const auto take = [&](std::size_t i) {
+    return Vector3(values[i], values[i + 1], values[i + 2]);
+  };
+  const Vector3 a = take(0) - take(6);
+  const Vector3 normal = a.cross(take(3) - take(6));
   if (!(normal.norm() > 0.0))
     at.fail(
         "*ORIENTATION has two points on one line with the origin. Expected "
         "one on axis 1 and one in the plane of axes 1 and 2.");
-  axes_[name_] << a.normalized(), normal.cross(a).normalized(),
-      normal.normalized();
-  orientations_[name_] = a.normalized();
+  Matrix3 axes;
+  axes << a.normalized(), normal.cross(a).normalized(), normal.normalized();
+  orientation.axes = axes;
+  orientation.axis = a.normalized();
 }
 
 PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
@@ -224,8 +240,9 @@ BeamProperty AbaqusSections::make_beam(const AbaqusSection& section) const {
 }
 
 Vector3 AbaqusSections::find_beam_axis(const AbaqusSection& section) {
-  if (section.lines.size() < 2) return {0.0, 0.0, -1.0};
-  return take_vector(section, 1);
+  const Vector3 axis = section.lines.size() < 2 ? Vector3(0.0, 0.0, -1.0)
+                                                : take_vector(section, 1);
+  return section.pose.R * axis;
 }
 
 Laminate AbaqusSections::make_shell(const AbaqusSection& section) const {
@@ -255,13 +272,32 @@ Laminate AbaqusSections::make_shell(const AbaqusSection& section) const {
 
 std::optional<Vector3> AbaqusSections::find_shell_axis(
     const AbaqusSection& section) const {
-  if (section.orientation.empty()) return std::nullopt;
+  if (section.orientation.empty()) {
+    if (!section.pose.R.isIdentity(1e-12) && has_directions(section))
+      fail_section(section,
+                   "its material has directions, in an instance that is "
+                   "turned. Expected an ORIENTATION.");
+    return std::nullopt;
+  }
   const auto found = orientations_.find(section.orientation);
-  if (found == orientations_.end())
+  if (found == orientations_.end() ||
+      (!found->second.axes && found->second.problem.empty()))
     fail_section(section, fmt::format("its orientation {} is missing. Expected "
                                       "an *ORIENTATION of this name.",
                                       echo(section.orientation)));
-  return found->second;
+  if (!found->second.problem.empty()) throw InputError(found->second.problem);
+  return section.pose.R * found->second.axis;
+}
+
+bool AbaqusSections::has_directions(const AbaqusSection& section) const {
+  std::vector<std::string> names = {section.material};
+  if (section.is_composite) names.clear();
+  for (const auto& fields : section.lines)
+    if (section.is_composite && fields.size() > 2) names.push_back(fields[2]);
+  return std::ranges::any_of(names, [&](const std::string& name) {
+    const std::string kind = materials_.at(name).kind;
+    return !kind.empty() && !kind.starts_with("ISO");
+  });
 }
 
 }  // namespace limber::fem

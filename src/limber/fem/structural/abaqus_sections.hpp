@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/pose.hpp"
 #include "limber/fem/structural/structure.hpp"
+#include "limber/fem/text/deck_place.hpp"
 #include "limber/fem/text/keyword_deck.hpp"
 
 namespace limber::fem {
@@ -21,15 +23,17 @@ struct AbaqusSection {
   std::string shape;        ///< of a beam: RECT, CIRC, PIPE, BOX, I
   bool is_composite = false;
   std::vector<std::vector<std::string>> lines;  ///< data, in upper case
+  Pose pose = {};  ///< of its instance, in which its axes are
 };
 
 /// Materials, sections and orientations of an input file.
 /// Source: CalculiX 2.20 User's Manual, ch. 7; Abaqus Keywords Reference Guide
 class AbaqusSections {
  public:
+  /// @param pose of the instance that the keyword is in
   /// @returns whether data lines of the keyword are for this
-  bool begin(const TextScanner& at, const Keyword& keyword);
-  void add_data(const TextScanner& at, std::string_view line);
+  bool begin(const DeckPlace& at, const Keyword& keyword, const Pose& pose);
+  void add_data(const DeckPlace& at, std::string_view line);
 
   [[nodiscard]] const std::vector<AbaqusSection>& sections() const {
     return sections_;
@@ -40,7 +44,8 @@ class AbaqusSections {
   /// Direction of axis 1 of the section's beams.
   [[nodiscard]] static Vector3 find_beam_axis(const AbaqusSection& section);
   /// Axis 1 of a shell's material before its projection; none without an
-  /// orientation.
+  /// orientation, which a shell that has directions needs in an instance that
+  /// is turned.
   [[nodiscard]] std::optional<Vector3> find_shell_axis(
       const AbaqusSection& section) const;
 
@@ -52,16 +57,24 @@ class AbaqusSections {
     std::optional<double> density;
   };
 
-  void begin_section(const TextScanner& at, const Keyword& keyword);
-  void add_orientation(const TextScanner& at, std::string_view line);
+  struct Orientation {
+    std::string problem;
+    std::optional<Matrix3> axes;     ///< without the further rotation
+    Vector3 axis = Vector3::Zero();  ///< axis 1
+  };
+
+  void begin_section(const DeckPlace& at, const Keyword& keyword,
+                     const Pose& pose);
+  void add_orientation(const DeckPlace& at, std::string_view line);
+  /// @param section whose materials are there
+  [[nodiscard]] bool has_directions(const AbaqusSection& section) const;
   [[nodiscard]] PlyMaterial find_material(const AbaqusSection& section,
                                           const std::string& name) const;
 
   std::string reading_;  // keyword whose data lines come
   std::string name_;     // of the material or orientation
   std::map<std::string, Material> materials_;
-  std::map<std::string, Vector3> orientations_;
-  std::map<std::string, Matrix3> axes_;  // of orientations
+  std::map<std::string, Orientation> orientations_;
   std::vector<AbaqusSection> sections_;
 };
 

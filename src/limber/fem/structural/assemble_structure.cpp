@@ -6,13 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/structural/draw_structure.hpp"
+#include "limber/fem/structural/node_motions.hpp"
 #include "limber/fem/structural/shell_element.hpp"
 
 namespace limber::fem {
@@ -83,27 +87,27 @@ StructuralElement make_mass(const StructureMass& body) {
 
 class StructureAssembler {
  public:
-  explicit StructureAssembler(const Structure& structure)
-      : structure_(structure) {}
+  StructureAssembler(const Structure& structure, const StructureSolids& solids)
+      : structure_(structure), solids_(solids), motions_(structure) {}
 
   AssembledStructure assemble() {
     list_elements();
-    find_leaders();
+    find_solid_nodes();
     find_used();
     number_rows();
+    map_nodes();
     MatrixModel& model = result_.model;
     model.source = structure_.source;
+    model.is_structure = true;
     model.found = structure_.found;
     model.notices = structure_.notices;
-    model.stiffness = {structure_.source, sum_stiffness(), 17};
-    constexpr std::array<std::array<int, 2>, 6> kPlaces = {
-        {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-    for (std::size_t i = 0; i < kPlaces.size(); ++i)
-      model.moments[i] = sum_moment(kPlaces[i][0], kPlaces[i][1]);
-    model.mass = {structure_.source,
-                  model.moments[0] + model.moments[1] + model.moments[2], 17};
+    note_hinges();
+    note_first_order();
+    sum_matrices();
+    check_connected_nodes();
     take_sets();
-    draw_structure(structure_, places_, motions_, model);
+    draw_structure({structure_, solids_, motions_, places_, solid_nodes_, map_},
+                   model);
     return std::move(result_);
   }
 
@@ -147,56 +151,56 @@ class StructureAssembler {
       }
   }
 
-  void find_leaders() {
-    leaders_.assign(structure_.tags.size(), -1);
-    std::vector<const StructureSpider*> spiders(structure_.tags.size());
-    for (const StructureSpider& spider : structure_.spiders)
-      for (const int node : spider.nodes) {
-        if (node == spider.reference) continue;
-        if (leaders_[index(node)] >= 0)
-          throw InputError(fmt::format(
-              "{}: node {} moves with another rigid element already ({}). "
-              "Expected it to depend on one node.",
-              spider.place, structure_.tags[index(node)],
-              spiders[index(node)]->place));
-        leaders_[index(node)] = spider.reference;
-        spiders[index(node)] = &spider;
-      }
-    for (std::size_t n = 0; n < leaders_.size(); ++n) {
-      std::size_t steps = 0;
-      for (int at = leaders_[n]; at >= 0; at = leaders_[index(at)])
-        if (++steps > leaders_.size())
-          throw InputError(
-              fmt::format("{}: node {} moves, by a chain of rigid elements, "
-                          "with itself. Expected one node that leads.",
-                          spiders[n]->place, structure_.tags[n]));
-    }
+  void find_solid_nodes() {
+    std::unordered_map<std::size_t, int> node_of;
+    for (std::size_t n = 0; n < structure_.tags.size(); ++n)
+      node_of[structure_.tags[n]] = static_cast<int>(n);
+    for (const std::size_t tag : solids_.mesh.tags)
+      solid_nodes_.push_back(node_of.at(tag));
   }
 
-  [[nodiscard]] int find_root(int node) const {
-    while (leaders_[index(node)] >= 0) node = leaders_[index(node)];
-    return node;
-  }
-
-  /// Nodes of elements, and those that lead them.
+  /// Nodes of elements, those that lead them, and those that move with them.
   void find_used() {
     used_.assign(structure_.tags.size(), 0);
+    rotates_.assign(structure_.tags.size(), 0);
     std::vector<char> is_stiff(structure_.tags.size(), 0);
-    for (const PlacedElement& placed : elements_) {
-      for (const int node : placed.nodes) {
-        used_[index(node)] = used_[index(find_root(node))] = 1;
-        if (placed.element.K.size() > 36) is_stiff[index(find_root(node))] = 1;
+    const auto use = [&](int node, bool stiffens) {
+      used_[index(node)] = 1;
+      for (const auto& [root, share] : motions_.find_shares(node)) {
+        used_[index(root)] = 1;
+        if (stiffens) is_stiff[index(root)] = 1;
+        if (motions_.is_hub(root)) rotates_[index(root)] = 1;
       }
-    }
-    for (const StructureSpider& spider : structure_.spiders)
-      for (const int node : spider.nodes)
-        if (is_stiff[index(find_root(node))]) used_[index(node)] = 1;
-    for (const StructureMass& mass : structure_.masses)
-      if (!is_stiff[index(find_root(mass.node))])
+    };
+    for (const PlacedElement& placed : elements_)
+      for (const int node : placed.nodes) {
+        const bool is_mass = placed.element.K.size() == 36;
+        use(node, !is_mass);
+        if (!is_mass && !motions_.is_led(node)) rotates_[index(node)] = 1;
+      }
+    for (const int node : solid_nodes_) use(node, true);
+    const auto is_held = [&](int node) {
+      const auto shares = motions_.find_shares(node);
+      return std::ranges::all_of(shares, [&](const auto& share) {
+        return is_stiff[index(share.first)] != 0;
+      });
+    };
+    for (int n = 0; n < static_cast<int>(used_.size()); ++n)
+      if (motions_.is_led(n) && is_held(n)) use(n, false);
+    for (const StructureMass& mass : structure_.masses) {
+      if (!is_held(mass.node))
         throw InputError(fmt::format(
-            "{}: no beam or shell holds node {}, which has a mass. Expected "
-            "an element or a rigid element on it.",
+            "{}: no beam, shell or solid holds node {}, which has a mass. "
+            "Expected an element or a rigid element on it.",
             mass.place, structure_.tags[index(mass.node)]));
+      const bool turns = !mass.offset.isZero(0.0) || !mass.inertia.isZero(0.0);
+      if (turns && !motions_.is_led(mass.node) && !rotates_[index(mass.node)])
+        throw InputError(fmt::format(
+            "{}: a mass with an offset or moments of inertia is at node {}, "
+            "which is of solids alone and has no rotation. Expected its mass "
+            "alone, or a rigid element.",
+            mass.place, structure_.tags[index(mass.node)]));
+    }
   }
 
   void number_rows() {
@@ -204,104 +208,214 @@ class StructureAssembler {
     places_.assign(structure_.tags.size(), -1);
     row_of_.assign(structure_.tags.size(), -1);
     std::vector<int> kept;
-    for (std::size_t n = 0; n < used_.size(); ++n) {
-      if (!used_[n]) continue;
-      places_[n] = static_cast<int>(kept.size());
-      kept.push_back(static_cast<int>(n));
-      model.tags.push_back(structure_.tags[n]);
-      if (leaders_[n] >= 0) continue;
-      row_of_[n] = static_cast<int>(model.rows.size());
-      for (int c = 0; c < 6; ++c) model.rows.push_back({places_[n], c});
+    for (int n = 0; n < static_cast<int>(used_.size()); ++n) {
+      if (!used_[index(n)]) continue;
+      places_[index(n)] = static_cast<int>(kept.size());
+      kept.push_back(n);
+      model.tags.push_back(structure_.tags[index(n)]);
+      if (motions_.is_led(n)) continue;
+      row_of_[index(n)] = static_cast<int>(model.rows.size());
+      for (int c = 0; c < (rotates_[index(n)] ? 6 : 3); ++c)
+        model.rows.push_back({places_[index(n)], c});
     }
     model.x = structure_.x(Eigen::all, kept);
-    motions_.resize(structure_.tags.size());
-    for (const int n : kept) {
-      const int root = find_root(n);
-      motions_[index(n)] = {row_of_[index(root)],
-                            structure_.x.col(n) - structure_.x.col(root)};
-    }
   }
 
-  [[nodiscard]] Sparse make_square(const Triplets& triplets) const {
-    const auto n = static_cast<Eigen::Index>(result_.model.rows.size());
-    Sparse A(n, n);
+  /// Six unknowns of each node by the rows.
+  void map_nodes() {
+    Triplets triplets;
+    for (int n = 0; n < static_cast<int>(used_.size()); ++n) {
+      if (!used_[index(n)]) continue;
+      for (const auto& [root, S] : motions_.find_shares(n))
+        for (int i = 0; i < 6; ++i)
+          for (int j = 0; j < (rotates_[index(root)] ? 6 : 3); ++j)
+            if (S(i, j) != 0.0)
+              triplets.emplace_back(6 * n + i, row_of_[index(root)] + j,
+                                    S(i, j));
+    }
+    map_.resize(6 * std::ssize(used_), std::ssize(result_.model.rows));
+    map_.setFromTriplets(triplets.begin(), triplets.end());
+  }
+
+  /// An edge of shells or an end of beams on a solid is a hinge, as it is in
+  /// the programs that decks are of.
+  void note_hinges() {
+    std::vector<int> hinges;
+    for (const int node : solid_nodes_)
+      if (rotates_[index(node)] && !motions_.is_hub(node))
+        hinges.push_back(node);
+    if (hinges.empty()) return;
+    result_.model.notices.push_back(fmt::format(
+        "{}: beams and shells share {} nodes with solids, the first is {}. "
+        "Solids hold displacements there and no rotation; a rigid element "
+        "holds both.",
+        structure_.source, hinges.size(),
+        structure_.tags[index(hinges.front())]));
+  }
+
+  void note_first_order() {
+    std::size_t count = 0;
+    for (const ElementBlock& block : solids_.mesh.blocks)
+      if (block.element->order == 1) count += block.size();
+    if (count > 0)
+      result_.model.notices.push_back(fmt::format(
+          "{}: {} solids are of first order, which are too stiff in bending. "
+          "Elements of second order have nodes on their edges, too.",
+          structure_.source, count));
+  }
+
+  /// A, of six unknowns of each node, by the rows.
+  [[nodiscard]] Sparse reduce(const Triplets& triplets) const {
+    Sparse A(map_.rows(), map_.rows());
     A.setFromTriplets(triplets.begin(), triplets.end());
-    return A;
+    const Sparse T = map_;
+    return T.transpose() * Sparse(A * T);
   }
 
-  /// Columns of an element's matrix, by the rows of the nodes that lead.
-  [[nodiscard]] MatrixX lead(const MatrixX& A,
-                             const std::vector<int>& nodes) const {
-    MatrixX led = A;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Vector3& d = motions_[index(nodes[i])].arm;
-      if (d.isZero(0.0)) continue;
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      led.middleCols<3>(at + 3) -= A.middleCols<3>(at) * skew(d);
-    }
-    return led;
-  }
-
-  void add(const MatrixX& A, const std::vector<int>& nodes,
-           Triplets& triplets) const {
-    std::vector<int> rows;
-    for (const int node : nodes)
-      for (int c = 0; c < 6; ++c) rows.push_back(motions_[index(node)].row + c);
+  static void add(const MatrixX& A, const std::vector<int>& nodes,
+                  Triplets& triplets) {
+    const auto place = [&](Eigen::Index i) {
+      return 6 * nodes[static_cast<std::size_t>(i / 6)] +
+             static_cast<int>(i % 6);
+    };
     for (Eigen::Index j = 0; j < A.cols(); ++j)
       for (Eigen::Index i = 0; i < A.rows(); ++i)
-        if (A(i, j) != 0.0)
-          triplets.emplace_back(rows[static_cast<std::size_t>(i)],
-                                rows[static_cast<std::size_t>(j)], A(i, j));
+        if (A(i, j) != 0.0) triplets.emplace_back(place(i), place(j), A(i, j));
   }
 
-  [[nodiscard]] Sparse sum_stiffness() const {
+  void sum_matrices() {
+    StructuralMatrices solid;
+    if (structure_.has_solids)
+      solid = assemble_elements(solids_.mesh, solids_.materials);
+    MatrixModel& model = result_.model;
+    const Sparse K = reduce(list_stiffness(solid));
+    model.stiffness = {structure_.source, 0.5 * (K + Sparse(K.transpose())),
+                       17};
+    constexpr std::array<std::array<int, 2>, 6> kPlaces = {
+        {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+    for (std::size_t i = 0; i < kPlaces.size(); ++i)
+      model.moments[i] =
+          reduce(list_moment(solid, kPlaces[i][0], kPlaces[i][1]));
+    const Sparse M = model.moments[0] + model.moments[1] + model.moments[2];
+    model.mass = {structure_.source, 0.5 * (M + Sparse(M.transpose())), 17};
+    result_.mass += solids_.unit * solid.M_s.sum();
+  }
+
+  [[nodiscard]] Triplets list_stiffness(const StructuralMatrices& solid) const {
     Triplets triplets;
-    for (const auto& [element, nodes] : elements_) {
-      const MatrixX half = lead(element.K, nodes);
-      const MatrixX whole = lead(half.transpose(), nodes);
-      add(0.5 * (whole + whole.transpose()), nodes, triplets);
-    }
-    return make_square(triplets);
+    for (const auto& [element, nodes] : elements_)
+      add(element.K, nodes, triplets);
+    const auto place = [&](Eigen::Index i) {
+      return 6 * solid_nodes_[static_cast<std::size_t>(i / 3)] +
+             static_cast<int>(i % 3);
+    };
+    for (Eigen::Index j = 0; j < solid.K.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(solid.K, j); it; ++it) {
+        const double value = solids_.unit * it.value();
+        triplets.emplace_back(place(it.row()), place(j), value);
+        if (it.row() != j)
+          triplets.emplace_back(place(j), place(it.row()), value);
+      }
+    return triplets;
   }
 
   /// int u_a u_b dm of the unknowns, sides a and b.
-  [[nodiscard]] Sparse sum_moment(int a, int b) const {
+  [[nodiscard]] Triplets list_moment(const StructuralMatrices& solid, int a,
+                                     int b) const {
     Triplets triplets;
     for (const auto& [element, nodes] : elements_) {
       MatrixX sum = MatrixX::Zero(element.K.rows(), element.K.cols());
-      for (const MassPoint& point : element.points) {
-        const MatrixX N = lead(point.N, nodes);
-        sum += point.mass * N.row(a).transpose() * N.row(b);
-      }
+      for (const MassPoint& point : element.points)
+        sum += point.mass * point.N.row(a).transpose() * point.N.row(b);
       add(sum, nodes, triplets);
     }
-    return make_square(triplets);
+    for (Eigen::Index j = 0; j < solid.M_s.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(solid.M_s, j); it; ++it)
+        triplets.emplace_back(
+            6 * solid_nodes_[static_cast<std::size_t>(it.row())] + a,
+            6 * solid_nodes_[static_cast<std::size_t>(j)] + b,
+            solids_.unit * it.value());
+    return triplets;
+  }
+
+  /// @throws InputError if the nodes fall apart, by the stiffness
+  void check_connected_nodes() const {
+    const MatrixModel& model = result_.model;
+    const Sparse& K = model.stiffness.entries;
+    std::vector<std::vector<int>> beside(model.tags.size());
+    for (Eigen::Index j = 0; j < K.outerSize(); ++j)
+      for (Sparse::InnerIterator it(K, j); it; ++it) {
+        const int a = model.rows[static_cast<std::size_t>(j)].node;
+        const int b = model.rows[static_cast<std::size_t>(it.row())].node;
+        if (beside[index(a)].empty() || beside[index(a)].back() != b)
+          beside[index(a)].push_back(b);
+      }
+    std::vector<char> is_reached(model.tags.size(), 0);
+    std::vector<int> firsts;
+    for (const MatrixRow& row : model.rows) {
+      if (is_reached[index(row.node)]) continue;
+      is_reached[index(row.node)] = 1;
+      firsts.push_back(row.node);
+      for (std::vector<int> open = {row.node}; !open.empty();) {
+        const int at = open.back();
+        open.pop_back();
+        for (const int other : beside[index(at)])
+          if (!std::exchange(is_reached[index(other)], 1))
+            open.push_back(other);
+      }
+    }
+    if (firsts.size() < 2) return;
+    throw InputError(fmt::format(
+        "{}: its elements are in {} parts that nothing joins, one with node "
+        "{}, another with node {}. Expected one body: nodes that both have, or "
+        "rigid elements between them.",
+        structure_.source, firsts.size(), model.tags[index(firsts[0])],
+        model.tags[index(firsts[1])]));
+  }
+
+  void add_set(const std::string& name, const std::vector<int>& nodes) {
+    if (nodes.empty()) return;
+    auto& sets = result_.model.sets;
+    auto at = std::ranges::find(sets, name, &MatrixNodeSet::name);
+    if (at == sets.end()) at = sets.insert(at, {name, {}});
+    std::set<int> all(at->nodes.begin(), at->nodes.end());
+    all.insert(nodes.begin(), nodes.end());
+    at->nodes.assign(all.begin(), all.end());
   }
 
   void take_sets() {
     for (const MatrixNodeSet& set : structure_.sets) {
-      MatrixNodeSet kept{set.name, {}};
+      std::vector<int> kept;
       for (const int node : set.nodes)
-        if (places_[index(node)] >= 0)
-          kept.nodes.push_back(places_[index(node)]);
-      if (!kept.nodes.empty()) result_.model.sets.push_back(std::move(kept));
+        if (places_[index(node)] >= 0) kept.push_back(places_[index(node)]);
+      add_set(set.name, kept);
+    }
+    for (const PhysicalGroup& group : solids_.mesh.groups) {
+      std::vector<int> kept;
+      for (const int node : group.nodes)
+        kept.push_back(places_[index(solid_nodes_[index(node)])]);
+      add_set(group.name, kept);
     }
   }
 
   const Structure& structure_;
+  const StructureSolids& solids_;
+  NodeMotions motions_;
   AssembledStructure result_;
   std::vector<PlacedElement> elements_;
-  std::vector<int> leaders_;  // by node; -1: it has rows of its own
+  std::vector<int> solid_nodes_;  // of the mesh, in the structure
   std::vector<char> used_;
-  std::vector<int> places_;  // of nodes in the model; -1: left out
+  std::vector<char> rotates_;  // of nodes with rows: six of them
+  std::vector<int> places_;    // of nodes in the model; -1: left out
   std::vector<int> row_of_;
-  std::vector<NodeMotion> motions_;
+  NodeMap map_;
 };
 
 }  // namespace
 
-AssembledStructure assemble_structure(const Structure& structure) {
-  return StructureAssembler(structure).assemble();
+AssembledStructure assemble_structure(const Structure& structure,
+                                      const StructureSolids& solids) {
+  return StructureAssembler(structure, solids).assemble();
 }
 
 }  // namespace limber::fem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/fem/structural/structure.hpp"
+#include "limber/fem/structural/structure_solids.hpp"
 
 namespace limber::fem {
 
@@ -11,10 +11,12 @@ struct AssembledStructure {
 };
 
 /// Stiffness, mass and second moments of the mass (exact for the elements'
-/// fields), six rows for each node that is not led by a spider. Nodes without
-/// an element are left out.
+/// fields). Nodes that nothing leads have six rows, and three where they are of
+/// solids alone. Nodes without an element are left out.
 /// @throws InputError with the place of what is wrong: an element's shape, a
-/// node that two spiders lead, a mass on a node that nothing holds
-[[nodiscard]] AssembledStructure assemble_structure(const Structure& structure);
+/// node that two rigid elements lead, a mass on a node that nothing holds; and
+/// for parts that nothing joins
+[[nodiscard]] AssembledStructure assemble_structure(
+    const Structure& structure, const StructureSolids& solids = {});
 
 }  // namespace limber::fem

@@ -100,7 +100,7 @@ AxisField interpolate(double s, double L,
 }
 
 /// Points and weights of Gauss on [0, 1], four.
-constexpr std::array<std::array<double, 2>, 4> kGauss = {
+constexpr std::array<std::array<double, 2>, 4> kAlongBeam = {
     {{0.06943184420297371, 0.17392742256872692},
      {0.33000947820757187, 0.32607257743127307},
      {0.66999052179242813, 0.32607257743127307},
@@ -167,7 +167,7 @@ StructuralElement make_beam(const BeamShape& shape, const BeamSection& given,
   if (!(line > 0.0)) return element;
   const double y = std::sqrt(material.density * section.I_z / line);
   const double z = std::sqrt(material.density * section.I_y / line);
-  for (const auto& [s, weight] : kGauss) {
+  for (const auto& [s, weight] : kAlongBeam) {
     const AxisField field = interpolate(s, L, planes);
     for (const double side : {-1.0, 1.0})
       for (const double other : {-1.0, 1.0}) {

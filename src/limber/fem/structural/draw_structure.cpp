@@ -25,18 +25,15 @@ struct FaceNode {
 
 class StructureDrawer {
  public:
-  StructureDrawer(const Structure& structure, const std::vector<int>& places,
-                  const std::vector<NodeMotion>& motions, MatrixModel& model)
-      : structure_(structure),
-        places_(places),
-        motions_(motions),
-        model_(model) {}
+  StructureDrawer(const PlacedStructure& placed, MatrixModel& model)
+      : placed_(placed), structure_(placed.structure), model_(model) {}
 
   void draw() {
     next_tag_ = find_first_tag();
     add_led_nodes();
     draw_shells();
     for (const StructureBeam& beam : structure_.beams) draw_beam(beam);
+    draw_solids();
     finish();
   }
 
@@ -49,25 +46,20 @@ class StructureDrawer {
     return tag + 1;
   }
 
-  void add_row(int node, int component, const NodeMotion& motion,
-               const Vector3& arm) {
-    const auto row = static_cast<int>(model_.condensed.size());
-    model_.condensed.push_back({node, component});
-    entries_.emplace_back(row, motion.row + component, 1.0);
-    if (component > 2) return;
-    const Matrix3 turn = -skew(arm);
-    for (int c = 0; c < 3; ++c)
-      if (turn(component, c) != 0.0)
-        entries_.emplace_back(row, motion.row + 3 + c, turn(component, c));
+  /// Adds a part of an unknown of a node to the last condensed row.
+  void add_unknown(int node, int component, double factor) {
+    const auto row = static_cast<int>(model_.condensed.size()) - 1;
+    for (NodeMap::InnerIterator it(placed_.map, 6 * node + component); it; ++it)
+      entries_.emplace_back(row, it.col(), factor * it.value());
   }
 
   void add_led_nodes() {
-    for (std::size_t n = 0; n < places_.size(); ++n) {
-      if (places_[n] < 0) continue;
-      const MatrixRow& first = model_.rows[index(motions_[n].row)];
-      if (first.node == places_[n]) continue;
-      for (int c = 0; c < 6; ++c)
-        add_row(places_[n], c, motions_[n], motions_[n].arm);
+    for (int n = 0; n < static_cast<int>(placed_.places.size()); ++n) {
+      if (placed_.places[index(n)] < 0 || !placed_.motions.is_led(n)) continue;
+      for (int c = 0; c < 6; ++c) {
+        model_.condensed.push_back({placed_.places[index(n)], c});
+        add_unknown(n, c, 1.0);
+      }
     }
   }
 
@@ -76,8 +68,13 @@ class StructureDrawer {
     const auto drawn = static_cast<int>(model_.tags.size());
     model_.tags.push_back(next_tag_++);
     points_.emplace_back(structure_.x.col(node) + d);
-    const NodeMotion& motion = motions_[index(node)];
-    for (int c = 0; c < 3; ++c) add_row(drawn, c, motion, motion.arm + d);
+    const Matrix3 turn = -skew(d);
+    for (int c = 0; c < 3; ++c) {
+      model_.condensed.push_back({drawn, c});
+      add_unknown(node, c, 1.0);
+      for (int k = 0; k < 3; ++k)
+        if (turn(c, k) != 0.0) add_unknown(node, 3 + k, turn(c, k));
+    }
     return drawn;
   }
 
@@ -197,6 +194,14 @@ class StructureDrawer {
     }
   }
 
+  void draw_solids() {
+    for (const auto& triangle : boundary_triangles(placed_.solids.mesh)) {
+      std::array<int, 3>& own = model_.triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i)
+        own[i] = placed_.places[index(placed_.solid_nodes[index(triangle[i])])];
+    }
+  }
+
   void finish() {
     const Eigen::Index own = model_.x.cols();
     Matrix3X x(3, own + static_cast<Eigen::Index>(points_.size()));
@@ -210,9 +215,8 @@ class StructureDrawer {
     model_.equations.setFromTriplets(entries_.begin(), entries_.end());
   }
 
+  const PlacedStructure& placed_;
   const Structure& structure_;
-  const std::vector<int>& places_;
-  const std::vector<NodeMotion>& motions_;
   MatrixModel& model_;
   std::size_t next_tag_ = 1;
   std::vector<Vector3> points_;
@@ -224,10 +228,8 @@ class StructureDrawer {
 
 }  // namespace
 
-void draw_structure(const Structure& structure, const std::vector<int>& places,
-                    const std::vector<NodeMotion>& motions,
-                    MatrixModel& model) {
-  StructureDrawer(structure, places, motions, model).draw();
+void draw_structure(const PlacedStructure& placed, MatrixModel& model) {
+  StructureDrawer(placed, model).draw();
 }
 
 }  // namespace limber::fem

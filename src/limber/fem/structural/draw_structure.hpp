@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/fem/structural/structure.hpp"
+#include <Eigen/Sparse>
+#include <vector>
+
+#include "limber/fem/structural/node_motions.hpp"
+#include "limber/fem/structural/structure_solids.hpp"
 
 namespace limber::fem {
 
-/// How a node moves: with the six rows from `row` on, at `arm` from theirs.
-struct NodeMotion {
-  int row = -1;
-  Vector3 arm = Vector3::Zero();
+/// The six unknowns of each node of a structure by the rows of its matrices.
+using NodeMap = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// What is drawn.
+struct PlacedStructure {
+  const Structure& structure;
+  const StructureSolids& solids;
+  const NodeMotions& motions;
+  const std::vector<int>& places;       ///< of nodes in the model; -1: left out
+  const std::vector<int>& solid_nodes;  ///< of the solids' mesh
+  const NodeMap& map;
 };
 
 /// Adds condensed nodes on the faces of shells and the outlines of beams, which
 /// move with their nodes as rigid arms, with the triangles of the closed
-/// surface between them; and the condensed rows of nodes that spiders lead.
-/// @param places of the structure's nodes in the model, -1 where left out
-/// @param motions of the structure's nodes
-void draw_structure(const Structure& structure, const std::vector<int>& places,
-                    const std::vector<NodeMotion>& motions, MatrixModel& model);
+/// surface between them, and those of the solids' surface; and the condensed
+/// rows of nodes that others lead.
+void draw_structure(const PlacedStructure& placed, MatrixModel& model);
 
 }  // namespace limber::fem

@@ -12,15 +12,15 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/fem/abaqus/solid_type.hpp"
 #include "limber/fem/structural/abaqus_keywords.hpp"
 #include "limber/fem/structural/abaqus_sections.hpp"
-#include "limber/fem/text/deck_sets.hpp"
+#include "limber/fem/structural/abaqus_ties.hpp"
+#include "limber/fem/text/flat_deck.hpp"
 
 namespace limber::fem {
 namespace {
 
-enum class LineKind { none, node, element, nset, elset, mass, section };
+enum class LineKind { none, node, element, nset, elset, mass, section, tie };
 
 bool is_shell_type(std::string_view type, std::string_view name) {
   return type == name || (type.size() == name.size() + 1 &&
@@ -36,12 +36,6 @@ std::size_t count_type_nodes(std::string_view type) {
   return 0;
 }
 
-struct InputElement {
-  std::string type;
-  std::vector<int> nodes;  // numbers, then indices
-  std::string place;
-};
-
 class StructureDeckReader {
  public:
   explicit StructureDeckReader(const std::filesystem::path& file) {
@@ -50,15 +44,16 @@ class StructureDeckReader {
   }
 
   Structure read() {
-    read_keyword_deck(structure_.files[0],
-                      {[this](const TextScanner& at, const Keyword& keyword) {
-                         note_file(at);
-                         return begin(at, keyword);
-                       },
-                       [this](const TextScanner& at, std::string_view line) {
-                         note_file(at);
-                         add_data(at, line);
-                       }});
+    structure_.notices = read_flat_deck(
+        structure_.files[0],
+        {[this](const DeckPlace& at, const Keyword& keyword, const Pose& pose) {
+           note_file(at);
+           return begin(at, keyword, pose);
+         },
+         [this](const DeckPlace& at, std::string_view line) {
+           note_file(at);
+           add_data(at, line);
+         }});
     if (!element_.empty())
       throw InputError(fmt::format(
           "{}: the last element is not complete. Expected more nodes.",
@@ -67,21 +62,21 @@ class StructureDeckReader {
     for (const AbaqusSection& section : sections_.sections()) assign(section);
     add_masses();
     check_described();
-    add_rigids();
+    ties_.add_to(mesh_, find_turning(), structure_);
     add_sets();
     report();
     return std::move(structure_);
   }
 
  private:
-  void note_file(const TextScanner& at) {
+  void note_file(const DeckPlace& at) {
     if (std::ranges::find(structure_.files, at.file()) ==
         structure_.files.end())
       structure_.files.push_back(at.file());
   }
 
   /// @returns whether its data are read from another file, too
-  bool begin(const TextScanner& at, const Keyword& keyword) {
+  bool begin(const DeckPlace& at, const Keyword& keyword, const Pose& pose) {
     if (!element_.empty())
       at.fail("the element before it is not complete. Expected more nodes.");
     keyword_ = keyword;
@@ -89,16 +84,16 @@ class StructureDeckReader {
     if (loses_motion(name))
       at.fail(
           fmt::format("*{} is not read among beams and shells and would be "
-                      "lost. Expected *NODE, *ELEMENT, sections, *MASS and "
-                      "*RIGID BODY.",
+                      "lost. Expected *NODE, *ELEMENT, sections, *MASS, "
+                      "*RIGID BODY, *COUPLING and *MPC.",
                       name));
-    if (name == "INSTANCE" && ++instances_ > 1)
-      at.fail("a second *INSTANCE. Expected one part of one instance.");
     for (const char* key : {"NSET", "ELSET"})
       if (keyword.has(key))
         spelling_.try_emplace(keyword.get(key), keyword_.spelled[key]);
     kind_ = LineKind::none;
-    if (sections_.begin(at, keyword)) {
+    if (ties_.begin(at, keyword)) {
+      kind_ = LineKind::tie;
+    } else if (sections_.begin(at, keyword, pose)) {
       kind_ = LineKind::section;
     } else if (name == "NODE") {
       if (keyword.has("SYSTEM") && keyword.get("SYSTEM") != "R")
@@ -106,11 +101,15 @@ class StructureDeckReader {
       kind_ = LineKind::node;
     } else if (name == "ELEMENT") {
       kind_ = LineKind::element;
-      if (count_type_nodes(keyword.get("TYPE")) == 0)
+      solid_ = find_solid_type(keyword.get("TYPE"));
+      structure_.has_solids |= solid_ != nullptr;
+      if (solid_ == nullptr && count_type_nodes(keyword.get("TYPE")) == 0)
         at.fail(fmt::format(
             "elements {} are not read among beams and shells. Expected B31, "
-            "S3, S4 (or S4R) and MASS.",
+            "S3, S4 (or S4R), solids (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, "
+            "C3D5) and MASS.",
             echo(keyword.get("TYPE"))));
+      if (solid_ == nullptr) beside_.insert(keyword.get("TYPE"));
     } else if (name == "NSET") {
       kind_ = LineKind::nset;
       if (keyword.has("ELSET"))
@@ -119,38 +118,38 @@ class StructureDeckReader {
       kind_ = LineKind::elset;
     } else if (name == "MASS") {
       kind_ = LineKind::mass;
-    } else if (name == "RIGID BODY") {
-      add_rigid(at);
     } else if (!is_of_analysis(name)) {
       ++unused_[name];
     }
     return kind_ == LineKind::node || kind_ == LineKind::element ||
            kind_ == LineKind::nset || kind_ == LineKind::elset ||
-           name == "INCLUDE";
+           name == "INCLUDE" || name == "SURFACE";
   }
 
-  void add_data(const TextScanner& at, std::string_view line) {
+  void add_data(const DeckPlace& at, std::string_view line) {
     switch (kind_) {
       case LineKind::node:
         return add_node(at, line);
       case LineKind::element:
         return add_element(at, line);
       case LineKind::nset:
-        return node_sets_.add_line(at, keyword_, keyword_.get("NSET"), line);
+        return mesh_.node_sets.add_line(at, keyword_, keyword_.get("NSET"),
+                                        line);
       case LineKind::elset:
-        return element_sets_.add_line(at, keyword_, keyword_.get("ELSET"),
-                                      line);
+        return mesh_.element_sets.add_line(at, keyword_, keyword_.get("ELSET"),
+                                           line);
       case LineKind::mass:
         return add_mass(at, line);
       case LineKind::section:
         return sections_.add_data(at, line);
+      case LineKind::tie:
+        return ties_.add_data(at, line);
       case LineKind::none:
-        if (keyword_.name == "INSTANCE")
-          at.fail("*INSTANCE moves its part. Expected one that is not moved.");
+        return;
     }
   }
 
-  static double read_number(const TextScanner& at, std::string_view field) {
+  static double read_number(const DeckPlace& at, std::string_view field) {
     double value = 0.0;
     if (!field.empty() && !parse_real(field, value))
       at.fail(
@@ -158,7 +157,7 @@ class StructureDeckReader {
     return value;
   }
 
-  void add_node(const TextScanner& at, std::string_view line) {
+  void add_node(const DeckPlace& at, std::string_view line) {
     const std::vector<std::string_view> fields = split_commas(line);
     const long number = read_deck_number(at, fields[0], "node");
     Vector3 x = Vector3::Zero();
@@ -167,22 +166,25 @@ class StructureDeckReader {
     if (!points_.emplace(number, x).second)
       at.fail(fmt::format("node {} is there twice. Expected each node once.",
                           number));
-    node_sets_.add(keyword_.get("NSET"), number);
+    mesh_.node_sets.add(keyword_.get("NSET"), number);
   }
 
   /// Number, nodes; a line that ends in a comma goes on.
-  void add_element(const TextScanner& at, std::string_view line) {
+  void add_element(const DeckPlace& at, std::string_view line) {
     for (const std::string_view field : split_commas(line))
       if (!field.empty())
         element_.push_back(read_deck_number(at, field, "element or node"));
     if (line.ends_with(',') || element_.empty()) return;
     const long number = element_[0];
     InputElement element{keyword_.get("TYPE"),
+                         solid_,
                          {element_.begin() + 1, element_.end()},
-                         fmt::format("{}:{}", at.file().string(), at.number())};
+                         at.text()};
     element_.clear();
     // B31 may have a third node for the direction of its section.
-    const std::size_t wanted = count_type_nodes(element.type);
+    const std::size_t wanted = solid_ != nullptr
+                                   ? static_cast<std::size_t>(solid_->nodes)
+                                   : count_type_nodes(element.type);
     if (element.nodes.size() != wanted)
       at.fail(fmt::format("{} {} has {} nodes. Expected {}.", element.type,
                           number, element.nodes.size(), wanted));
@@ -190,34 +192,16 @@ class StructureDeckReader {
         wanted)
       at.fail(fmt::format("{} {} has a node twice. Expected different nodes.",
                           element.type, number));
-    element_sets_.add(keyword_.get("ELSET"), number);
-    if (!elements_.emplace(number, std::move(element)).second)
+    mesh_.element_sets.add(keyword_.get("ELSET"), number);
+    if (!mesh_.elements.emplace(number, std::move(element)).second)
       at.fail(fmt::format(
           "element {} is there twice. Expected a number of its own.", number));
   }
 
-  void add_mass(const TextScanner& at, std::string_view line) {
+  void add_mass(const DeckPlace& at, std::string_view line) {
     const double mass = read_number(at, split_commas(line)[0]);
     if (!(mass >= 0.0)) at.fail("*MASS is below 0. Expected a mass.");
     masses_[keyword_.get("ELSET")] = mass;
-  }
-
-  void add_rigid(const TextScanner& at) {
-    StructureSpider spider;
-    spider.place = fmt::format("{}:{}", at.file().string(), at.number());
-    long reference = 0;
-    if (!keyword_.has("NSET") ||
-        !parse_whole(keyword_.get("REF NODE"), reference))
-      at.fail("*RIGID BODY. Expected NSET and the number of its REF NODE.");
-    rigids_.emplace_back(keyword_.get("NSET"), static_cast<int>(reference));
-    structure_.spiders.push_back(std::move(spider));
-  }
-
-  int find_node(long number, const std::string& place) const {
-    const auto found = nodes_.find(number);
-    if (found != nodes_.end()) return found->second;
-    throw InputError(fmt::format(
-        "{}: node {} is missing. Expected it under *NODE.", place, number));
   }
 
   void number_nodes() {
@@ -226,14 +210,16 @@ class StructureDeckReader {
       const auto n = static_cast<int>(structure_.tags.size());
       structure_.x.col(n) = x;
       structure_.tags.push_back(static_cast<std::size_t>(number));
-      nodes_[number] = n;
+      mesh_.nodes[number] = n;
     }
-    for (auto& [number, element] : elements_)
-      for (int& node : element.nodes) node = find_node(node, element.place);
+    for (auto& [number, element] : mesh_.elements)
+      for (int& node : element.nodes)
+        node = mesh_.find_node(node, element.place);
+    mesh_.x = structure_.x;
   }
 
   void assign(const AbaqusSection& section) {
-    const std::vector<long> numbers = element_sets_.get(section.elset);
+    const std::vector<long> numbers = mesh_.element_sets.get(section.elset);
     if (numbers.empty())
       throw InputError(fmt::format(
           "{}: its set of elements {} is missing or empty. Expected one.",
@@ -241,15 +227,16 @@ class StructureDeckReader {
     const int property = make_property(section);
     const std::optional<Vector3> axis = sections_.find_shell_axis(section);
     for (const long number : numbers) {
-      const auto found = elements_.find(number);
-      if (found == elements_.end())
+      const auto found = mesh_.elements.find(number);
+      if (found == mesh_.elements.end())
         throw InputError(fmt::format(
             "{}: its set {} has element {}, which is missing. Expected it "
             "under *ELEMENT.",
             section.place, section.elset, number));
       const InputElement& element = found->second;
       const bool is_beam = element.type.starts_with('B');
-      if (element.type == "MASS" || is_beam != section.is_beam)
+      if (element.type == "MASS" || element.solid != nullptr ||
+          is_beam != section.is_beam)
         throw InputError(fmt::format(
             "{}: element {} is a {}. Expected a section of its own kind.",
             section.place, number, element.type));
@@ -296,9 +283,10 @@ class StructureDeckReader {
 
   void add_masses() {
     for (const auto& [elset, mass] : masses_)
-      for (const long number : element_sets_.get(elset)) {
-        const auto found = elements_.find(number);
-        if (found == elements_.end() || found->second.type != "MASS") continue;
+      for (const long number : mesh_.element_sets.get(elset)) {
+        const auto found = mesh_.elements.find(number);
+        if (found == mesh_.elements.end() || found->second.type != "MASS")
+          continue;
         described_.insert(number);
         StructureMass body;
         body.node = found->second.nodes[0];
@@ -309,26 +297,21 @@ class StructureDeckReader {
   }
 
   void check_described() const {
-    for (const auto& [number, element] : elements_)
-      if (!described_.contains(number))
+    for (const auto& [number, element] : mesh_.elements)
+      if (element.solid == nullptr && !described_.contains(number))
         throw InputError(fmt::format(
             "{}: {} {} has no section. Expected a *BEAM SECTION, *SHELL "
             "SECTION or *MASS of a set with it.",
             element.place, element.type, number));
   }
 
-  void add_rigids() {
-    for (std::size_t i = 0; i < rigids_.size(); ++i) {
-      StructureSpider& spider = structure_.spiders[i];
-      spider.reference = find_node(rigids_[i].second, spider.place);
-      const std::vector<long> numbers = node_sets_.get(rigids_[i].first);
-      if (numbers.empty())
-        throw InputError(fmt::format(
-            "{}: its set of nodes {} is missing or empty. Expected one.",
-            spider.place, echo(rigids_[i].first)));
-      for (const long number : std::set<long>(numbers.begin(), numbers.end()))
-        spider.nodes.push_back(find_node(number, spider.place));
-    }
+  [[nodiscard]] std::set<int> find_turning() const {
+    std::set<int> turning;
+    for (const StructureBeam& beam : structure_.beams)
+      turning.insert(beam.nodes.begin(), beam.nodes.end());
+    for (const StructureShell& shell : structure_.shells)
+      turning.insert(shell.nodes.begin(), shell.nodes.end());
+    return turning;
   }
 
   void add_set(const std::string& name, const std::set<int>& nodes) {
@@ -342,17 +325,17 @@ class StructureDeckReader {
   }
 
   void add_sets() {
-    for (const auto& [name, numbers] : node_sets_.all()) {
+    for (const auto& [name, numbers] : mesh_.node_sets.all()) {
       std::set<int> nodes;
       for (const long number : numbers)
-        nodes.insert(find_node(number, structure_.source));
+        nodes.insert(mesh_.find_node(number, structure_.source));
       add_set(name, nodes);
     }
-    for (const auto& [name, numbers] : element_sets_.all()) {
+    for (const auto& [name, numbers] : mesh_.element_sets.all()) {
       std::set<int> nodes;
       for (const long number : numbers) {
-        const auto found = elements_.find(number);
-        if (found != elements_.end())
+        const auto found = mesh_.elements.find(number);
+        if (found != mesh_.elements.end())
           nodes.insert(found->second.nodes.begin(), found->second.nodes.end());
       }
       add_set(name, nodes);
@@ -360,11 +343,18 @@ class StructureDeckReader {
   }
 
   void report() {
-    structure_.found.push_back(
-        fmt::format("{}: {} beams, {} shells, {} masses, {} rigid bodies",
-                    structure_.files[0].filename().string(),
-                    structure_.beams.size(), structure_.shells.size(),
-                    structure_.masses.size(), structure_.spiders.size()));
+    structure_.found.push_back(fmt::format(
+        "{}: {} beams, {} shells, {} solids, {} masses, {} rigid "
+        "bodies and couplings",
+        structure_.files[0].filename().string(), structure_.beams.size(),
+        structure_.shells.size(),
+        std::ranges::count_if(
+            mesh_.elements,
+            [](const auto& one) { return one.second.solid != nullptr; }),
+        structure_.masses.size(), ties_.size()));
+    structure_.beside_solids = {"*RIGID BODY", "*COUPLING", "*MPC"};
+    structure_.beside_solids.insert(structure_.beside_solids.end(),
+                                    beside_.begin(), beside_.end());
     std::vector<std::string> unused;
     for (const auto& [name, count] : unused_)
       unused.push_back(fmt::format("{} *{}", count, name));
@@ -379,37 +369,40 @@ class StructureDeckReader {
   Keyword keyword_;
   LineKind kind_ = LineKind::none;
   std::map<long, Vector3> points_;
-  std::map<long, int> nodes_;
-  std::map<long, InputElement> elements_;
-  std::vector<long> element_;  // numbers of one that goes on
+  AbaqusMesh mesh_;
+  AbaqusTies ties_;
+  const SolidType* solid_ = nullptr;  // of the elements that come
+  std::set<std::string> beside_;      // types of elements that are no solids
+  std::vector<long> element_;         // numbers of one that goes on
   std::set<long> described_;
-  std::map<std::string, double> masses_;             // by set of elements
-  std::vector<std::pair<std::string, int>> rigids_;  // set and reference
-  DeckSets node_sets_;
-  DeckSets element_sets_;
+  std::map<std::string, double> masses_;  // by set of elements
   std::map<std::string, std::string> spelling_;
   std::map<std::string, int> unused_;
-  int instances_ = 0;
 };
 
 }  // namespace
 
-bool is_abaqus_structure(const std::filesystem::path& file) {
-  bool has_elements = false;
+bool is_abaqus_structure(const std::filesystem::path& file, bool with_solids) {
+  bool has_structural = false;
   bool has_section = false;
   bool has_solid = false;
+  bool has_tie = false;
   read_keyword_deck(file, {[&](const TextScanner&, const Keyword& keyword) {
+                             const std::string& name = keyword.name;
                              const std::string type = keyword.get("TYPE");
-                             if (keyword.name == "ELEMENT") {
+                             if (name == "ELEMENT") {
                                has_solid |= find_solid_type(type) != nullptr;
-                               has_elements |= count_type_nodes(type) > 1;
+                               has_structural |= count_type_nodes(type) > 1;
                              }
-                             has_section |= keyword.name == "BEAM SECTION" ||
-                                            keyword.name == "SHELL SECTION";
-                             return keyword.name == "INCLUDE";
+                             has_section |= name == "BEAM SECTION" ||
+                                            name == "SHELL SECTION";
+                             has_tie |= name == "RIGID BODY" ||
+                                        name == "COUPLING" || name == "MPC";
+                             return name == "INCLUDE";
                            },
                            [](const TextScanner&, std::string_view) {}});
-  return has_elements && has_section && !has_solid;
+  if (has_solid && !with_solids) return false;
+  return (has_structural && has_section) || (has_solid && has_tie);
 }
 
 Structure read_abaqus_structure(const std::filesystem::path& file) {

@@ -7,14 +7,17 @@
 
 namespace limber::fem {
 
-/// Whether an input file has beams or shells that a section describes, and no
-/// solids.
-[[nodiscard]] bool is_abaqus_structure(const std::filesystem::path& file);
+/// Whether an input file has beams or shells that a section describes.
+/// @param with_solids whether it may have solids, too, also alone with rigid
+/// bodies, couplings or multi-point constraints
+[[nodiscard]] bool is_abaqus_structure(const std::filesystem::path& file,
+                                       bool with_solids);
 
 /// Reads B31, S3, S4 (also with reduced integration) and MASS with their
-/// sections and materials, *RIGID BODY, *NSET, *ELSET, *ORIENTATION, *INCLUDE
-/// of an input file of Abaqus or CalculiX. Sets: those of nodes, and nodes of
-/// sets of elements.
+/// sections and materials, *RIGID BODY, *COUPLING, *MPC, *SURFACE, *NSET,
+/// *ELSET, *ORIENTATION, *INCLUDE, *PART, *INSTANCE of an input file of Abaqus
+/// or CalculiX; of solids their nodes, and not their matrices
+/// (structure_solids.hpp). Sets: those of nodes, and nodes of sets of elements.
 /// @throws InputError with file and line, also for what would be lost
 [[nodiscard]] Structure read_abaqus_structure(
     const std::filesystem::path& file);

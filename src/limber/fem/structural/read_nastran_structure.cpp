@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -18,6 +19,7 @@
 #include "limber/fem/nastran/grid_table.hpp"
 #include "limber/fem/nastran/solid_card.hpp"
 #include "limber/fem/structural/nastran_properties.hpp"
+#include "limber/fem/structural/nastran_rigids.hpp"
 
 namespace limber::fem {
 namespace {
@@ -42,13 +44,19 @@ bool is_whole(std::string_view field) {  // an integer, no real number
 
 constexpr std::string_view kAllComponents = "123456";
 
+/// Of the structure, as solids alone are read by read_bulk_data.
+constexpr std::array<std::string_view, 12> kBesideSolids = {
+    "CBAR",  "CBEAM", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR",
+    "CONM2", "RBE2",  "RBE3",   "RBAR",   "SPC",    "SPC1"};
+
 class StructureReader {
  public:
   explicit StructureReader(const std::filesystem::path& file)
       : deck_(read_deck(file)),
         problems_(deck_),
         grids_(problems_),
-        properties_(problems_) {
+        properties_(problems_),
+        nodes_(problems_) {
     structure_.source = file.string();
   }
 
@@ -57,10 +65,13 @@ class StructureReader {
     BulkCard card;
     while (reader.next(card)) add(card);
     number_nodes();
+    for (const BulkCard& one : solids_) add_solid(one);
     for (const BulkCard& one : beams_) add_beam(one);
     for (const BulkCard& one : shells_) add_shell(one);
     for (const BulkCard& one : masses_) add_mass(one);
+    find_turning();
     for (const BulkCard& one : rigids_) add_rigid(one);
+    for (const BulkCard& one : supports_) add_support(one);
     problems_.check();
     for (auto& [name, nodes] : sets_)
       structure_.sets.push_back({name, {nodes.begin(), nodes.end()}});
@@ -76,8 +87,11 @@ class StructureReader {
       shells_.push_back(card);
     } else if (card.name == "CONM2") {
       masses_.push_back(card);
-    } else if (card.name == "RBE2" || card.name == "RBAR") {
+    } else if (card.name == "RBE2" || card.name == "RBAR" ||
+               card.name == "RBE3") {
       rigids_.push_back(card);
+    } else if (is_solid(card.name)) {
+      solids_.push_back(card);
     } else if (card.name == "GRID" || card.name == "GRDSET") {
       add_point(card);
     } else if (is_coordinate_system(card.name)) {
@@ -123,8 +137,9 @@ class StructureReader {
       problems_.add(
           *card.line,
           fmt::format("{} is not read among beams and shells and would be "
-                      "lost. Expected CBAR, CBEAM, CQUAD4, CTRIA3, CONM2, RBE2 "
-                      "and RBAR; a body with others comes by its matrices.",
+                      "lost. Expected CBAR, CBEAM, CQUAD4, CTRIA3, solids, "
+                      "CONM2, RBE2, RBE3 and RBAR; a body with others comes by "
+                      "its matrices.",
                       card.name));
   }
 
@@ -137,22 +152,8 @@ class StructureReader {
       const auto n = static_cast<int>(structure_.tags.size());
       structure_.x.col(n) = grids_.find_position(grids_.grids().at(id));
       structure_.tags.push_back(static_cast<std::size_t>(id));
-      nodes_[id] = n;
+      nodes_.add(id, n);
     }
-    for (const BulkCard& card : supports_) add_support(card);
-  }
-
-  /// The node in a field; none, and a problem, if it is missing.
-  std::optional<int> find_node(const BulkCard& card, std::size_t field) {
-    const std::optional<int> id = card.integer(field, std::nullopt, problems_);
-    if (!id) return std::nullopt;
-    const auto found = nodes_.find(*id);
-    if (found != nodes_.end()) return found->second;
-    problems_.add(*card.line,
-                  fmt::format("{} {} has node {}, which is missing. Expected "
-                              "its GRID.",
-                              card.name, echo(card.field(0)), *id));
-    return std::nullopt;
   }
 
   std::optional<Vector3> find_vector(const BulkCard& card, std::size_t field) {
@@ -203,12 +204,21 @@ class StructureReader {
     sets_[name].insert(nodes.begin(), nodes.end());
   }
 
+  /// Its matrices are of read_structure_solids.
+  void add_solid(const BulkCard& card) {
+    if (!take_number(card)) return;
+    for (std::size_t field = 2; field < card.fields.size(); ++field)
+      if (!card.field(field).empty() && card.field(field) != "0")
+        if (const std::optional<int> node = nodes_.find(card, field))
+          solid_nodes_.insert(*node);
+  }
+
   void add_beam(const BulkCard& card) {
     if (!take_number(card)) return;
     const std::optional<int> id =
         card.integer(1, card.integer(0, std::nullopt, problems_), problems_);
-    const std::optional<int> a = find_node(card, 2);
-    const std::optional<int> b = find_node(card, 3);
+    const std::optional<int> a = nodes_.find(card, 2);
+    const std::optional<int> b = nodes_.find(card, 3);
     if (!card.field(7).empty() && card.field(7) != "GGG")
       problems_.add(
           *card.line,
@@ -238,7 +248,7 @@ class StructureReader {
     const bool is_point = is_whole(card.field(4)) && card.field(5).empty() &&
                           card.field(6).empty();
     if (!is_point) return find_vector(card, 4);
-    const std::optional<int> point = find_node(card, 4);
+    const std::optional<int> point = nodes_.find(card, 4);
     if (!point) return std::nullopt;
     return Vector3(structure_.x.col(*point) - structure_.x.col(a));
   }
@@ -250,7 +260,7 @@ class StructureReader {
     const std::size_t count = count_shell_nodes(card.name);
     StructureShell shell;
     for (std::size_t i = 0; i < count; ++i)
-      if (const std::optional<int> node = find_node(card, 2 + i))
+      if (const std::optional<int> node = nodes_.find(card, 2 + i))
         shell.nodes.push_back(*node);
     if (!id || shell.nodes.size() != count) return;
     const std::size_t angle = 2 + count;
@@ -289,7 +299,7 @@ class StructureReader {
 
   void add_mass(const BulkCard& card) {
     if (!take_number(card)) return;
-    const std::optional<int> node = find_node(card, 1);
+    const std::optional<int> node = nodes_.find(card, 1);
     const std::optional<int> system = card.integer(2, 0, problems_);
     const std::optional<double> mass = card.real(3, problems_);
     const std::optional<Vector3> offset = find_vector(card, 4);
@@ -313,75 +323,54 @@ class StructureReader {
 
   void add_rigid(const BulkCard& card) {
     if (!take_number(card)) return;
-    StructureSpider spider;
-    spider.place = deck_.place_of(*card.line);
-    if (card.name == "RBAR") {
-      const bool a_leads = card.field(3) == kAllComponents;
-      const bool b_leads = card.field(4) == kAllComponents;
-      if (a_leads == b_leads || !card.field(a_leads ? 4 : 3).empty())
-        return refuse_components(card, "CNA or CNB");
-      const std::optional<int> a = find_node(card, a_leads ? 1 : 2);
-      const std::optional<int> b = find_node(card, a_leads ? 2 : 1);
-      if (!a || !b) return;
-      spider.reference = *a;
-      spider.nodes = {*b};
-    } else {
-      if (card.field(2) != kAllComponents) return refuse_components(card, "CM");
-      const std::optional<int> leader = find_node(card, 1);
-      if (!leader) return;
-      spider.reference = *leader;
-      for (const int node : read_list(card, 3)) spider.nodes.push_back(node);
+    add_nastran_rigid(card, deck_.place_of(*card.line), nodes_, turning_,
+                      problems_, structure_);
+  }
+
+  /// Nodes of beams and shells, and those that lead or are led.
+  void find_turning() {
+    for (const StructureBeam& beam : structure_.beams)
+      turning_.insert(beam.nodes.begin(), beam.nodes.end());
+    for (const StructureShell& shell : structure_.shells)
+      turning_.insert(shell.nodes.begin(), shell.nodes.end());
+    for (const BulkCard& card : rigids_) {
+      const std::size_t field = card.name == "RBE3" ? 2 : 1;
+      if (const std::optional<int> node = nodes_.find(card, field))
+        turning_.insert(*node);
     }
-    structure_.spiders.push_back(std::move(spider));
   }
 
-  void refuse_components(const BulkCard& card, const char* field) {
-    problems_.add(*card.line,
-                  fmt::format("{} {}: {} is not 123456. Expected a node that "
-                              "leads in all six components.",
-                              card.name, echo(card.field(0)), field));
-  }
-
-  /// Nodes from a field on: numbers, and "3 THRU 7"; a real number ends them.
-  std::vector<int> read_list(const BulkCard& card, std::size_t first) {
-    std::vector<int> nodes;
-    for (std::size_t i = first; i < card.fields.size(); ++i) {
-      if (card.field(i).empty() ||
-          card.field(i).find('.') != std::string_view::npos)
-        continue;
-      if (card.field(i) == "THRU" && i > first) {
-        const auto last = card.integer(i + 1, std::nullopt, problems_);
-        const auto from = card.integer(i - 1, std::nullopt, problems_);
-        if (!last || !from) return nodes;
-        for (auto at = nodes_.upper_bound(*from);
-             at != nodes_.end() && at->first <= *last; ++at)
-          nodes.push_back(at->second);
-        ++i;
-        continue;
-      }
-      if (const std::optional<int> node = find_node(card, i))
-        nodes.push_back(*node);
-    }
-    return nodes;
-  }
-
+  /// Nodes that are held in all the components that they have.
   void add_support(const BulkCard& card) {
     const std::string name = fmt::format("spc:{}", card.field(0));
-    if (card.name == "SPC1" && card.field(1) == kAllComponents)
-      add_to_set(name, read_list(card, 2));
-    if (card.name != "SPC") return;
-    for (const std::size_t i : {std::size_t{1}, std::size_t{4}})
-      if (card.field(i + 1) == kAllComponents)
-        if (const std::optional<int> node = find_node(card, i))
-          add_to_set(name, {*node});
+    const auto hold = [&](std::string_view components,
+                          const std::vector<int>& nodes) {
+      for (const int node : nodes)
+        if (components == kAllComponents ||
+            (components == "123" && solid_nodes_.contains(node) &&
+             !turning_.contains(node)))
+          add_to_set(name, {node});
+    };
+    std::size_t field = 2;
+    if (card.name == "SPC1") {
+      hold(card.field(1), nodes_.read_list(card, field));
+    } else {
+      for (const std::size_t i : {std::size_t{1}, std::size_t{4}})
+        if (!card.field(i).empty())
+          if (const std::optional<int> node = nodes_.find(card, i))
+            hold(card.field(i + 1), {*node});
+    }
   }
 
   void report() {
     structure_.found.push_back(
-        fmt::format("{}: {} beams, {} shells, {} masses, {} rigid elements",
+        fmt::format("{}: {} beams, {} shells, {} solids, {} masses, {} rigid "
+                    "elements",
                     deck_.files[0].filename().string(), structure_.beams.size(),
-                    structure_.shells.size(), structure_.masses.size(),
-                    structure_.spiders.size()));
+                    structure_.shells.size(), solids_.size(),
+                    structure_.masses.size(), rigids_.size()));
+    structure_.has_solids = !solids_.empty();
+    structure_.beside_solids = {kBesideSolids.begin(), kBesideSolids.end()};
     for (const std::filesystem::path& file : deck_.files)
       structure_.files.push_back(file);
     std::vector<std::string> unused;
@@ -407,8 +396,10 @@ class StructureReader {
   GridTable grids_;
   NastranProperties properties_;
   Structure structure_;
-  std::vector<BulkCard> beams_, shells_, masses_, rigids_, supports_;
-  std::map<int, int> nodes_;  // by number
+  std::vector<BulkCard> solids_, beams_, shells_, masses_, rigids_, supports_;
+  std::set<int> solid_nodes_;
+  NastranNodes nodes_;
+  std::set<int> turning_;  // nodes with rotations
   std::unordered_set<int> elements_;
   std::map<int, int> beam_of_, shell_of_;  // by number of a property
   std::map<std::string, std::set<int>> sets_;
@@ -418,7 +409,7 @@ class StructureReader {
 
 }  // namespace
 
-bool is_nastran_structure(const std::filesystem::path& file) {
+bool is_nastran_structure(const std::filesystem::path& file, bool with_solids) {
   const Deck deck = read_deck(file);
   DeckProblems problems(deck);
   CardReader reader(deck, problems);
@@ -426,9 +417,9 @@ bool is_nastran_structure(const std::filesystem::path& file) {
   bool has_elements = false;
   bool has_property = false;
   while (reader.next(card)) {
-    if (is_solid(card.name)) return false;
+    if (is_solid(card.name) && !with_solids) return false;
     has_elements |= is_bar(card.name) || count_shell_nodes(card.name) > 0;
-    has_property |= is_property(card.name);
+    has_property |= is_property(card.name) && card.name != "PSOLID";
   }
   return has_elements && has_property;
 }

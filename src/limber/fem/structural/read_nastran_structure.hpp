@@ -7,14 +7,17 @@
 
 namespace limber::fem {
 
-/// Whether a Nastran deck has beams or shells with properties, and no solids.
+/// Whether a Nastran deck has beams or shells with properties. @param
+/// with_solids whether it may have solids, too
 /// @throws InputError as read_deck
-[[nodiscard]] bool is_nastran_structure(const std::filesystem::path& file);
+[[nodiscard]] bool is_nastran_structure(const std::filesystem::path& file,
+                                        bool with_solids);
 
 /// Reads CBAR, CBEAM, CQUAD4, CQUADR, CTRIA3, CTRIAR with their properties and
-/// materials, CONM2, RBE2, RBAR, PARAM,WTMASS and points as read_bulk_data.
-/// Sets: nodes of each property by its number, and those that SPC and SPC1 hold
-/// in all six components, as "spc:SID".
+/// materials, CONM2, RBE2, RBE3, RBAR, PARAM,WTMASS and points as
+/// read_bulk_data; which nodes solids have, and not their matrices
+/// (structure_solids.hpp). Sets: nodes of each property by its number, and
+/// those that SPC and SPC1 hold in all components that they have, as "spc:SID".
 /// @throws InputError with file and line of all that is wrong, and of other
 /// elements, which would be lost
 [[nodiscard]] Structure read_nastran_structure(

@@ -8,13 +8,13 @@
 
 namespace limber::fem {
 
-bool is_structure(const std::filesystem::path& file) {
+bool is_structure(const std::filesystem::path& file, bool with_solids) {
   if (!has_deck_name(file)) return false;
   switch (find_mesh_file_kind(file)) {
     case MeshFileKind::bulk_data:
-      return is_nastran_structure(file);
+      return is_nastran_structure(file, with_solids);
     case MeshFileKind::input_deck:
-      return is_abaqus_structure(file);
+      return is_abaqus_structure(file, with_solids);
     case MeshFileKind::mesh:
     case MeshFileKind::universal:
     case MeshFileKind::geometry:

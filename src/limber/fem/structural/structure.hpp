@@ -53,6 +53,15 @@ struct StructureSpider {
   std::string place;
 };
 
+/// A node that moves with the mean of others' displacements, by weights, and
+/// turns with them, and does not stiffen them.
+struct StructureMean {
+  int node = -1;
+  std::vector<int> nodes;
+  std::vector<double> weights;  ///< beside nodes; their sum > 0
+  std::string place;
+};
+
 struct Structure {
   std::string source;                        ///< file, for messages
   std::vector<std::filesystem::path> files;  ///< with those that it includes
@@ -64,6 +73,9 @@ struct Structure {
   std::vector<StructureShell> shells;
   std::vector<StructureMass> masses;
   std::vector<StructureSpider> spiders;
+  std::vector<StructureMean> means;
+  bool has_solids = false;  ///< which read_structure_solids reads
+  std::vector<std::string> beside_solids;  ///< kinds of cards of all others
   std::vector<MatrixNodeSet> sets;
   double mass_factor = 1.0;  ///< of all masses
   std::vector<std::string> found;

@@ -9,8 +9,7 @@
 namespace limber::fem {
 namespace {
 
-void generate(const TextScanner& at,
-              const std::vector<std::string_view>& fields,
+void generate(const DeckPlace& at, const std::vector<std::string_view>& fields,
               const SetReading& reading) {
   constexpr long kMost = 20'000'000;
   const long first = read_deck_number(at, fields[0], "number");
@@ -27,7 +26,7 @@ void generate(const TextScanner& at,
 
 }  // namespace
 
-long read_deck_number(const TextScanner& at, std::string_view field,
+long read_deck_number(const DeckPlace& at, std::string_view field,
                       const char* what) {
   constexpr long kMost = 2'000'000'000;
   long value = 0;
@@ -37,7 +36,7 @@ long read_deck_number(const TextScanner& at, std::string_view field,
   return value;
 }
 
-void read_set_line(const TextScanner& at, const Keyword& keyword,
+void read_set_line(const DeckPlace& at, const Keyword& keyword,
                    std::string_view line, const SetReading& reading) {
   const std::vector<std::string_view> fields = split_commas(line);
   if (keyword.has("GENERATE")) return generate(at, fields, reading);
@@ -53,7 +52,7 @@ void read_set_line(const TextScanner& at, const Keyword& keyword,
   }
 }
 
-void DeckSets::add_line(const TextScanner& at, const Keyword& keyword,
+void DeckSets::add_line(const DeckPlace& at, const Keyword& keyword,
                         const std::string& name, std::string_view line) {
   std::vector<long>& set = sets_[name];
   read_set_line(at, keyword, line,

@@ -7,13 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "limber/fem/text/deck_place.hpp"
 #include "limber/fem/text/keyword_deck.hpp"
 
 namespace limber::fem {
 
 /// @throws InputError with file and line unless it is an integer from 1
-[[nodiscard]] long read_deck_number(const TextScanner& at,
-                                    std::string_view field, const char* what);
+[[nodiscard]] long read_deck_number(const DeckPlace& at, std::string_view field,
+                                    const char* what);
 
 /// What is done with the entries of a set.
 struct SetReading {
@@ -25,14 +26,14 @@ struct SetReading {
 /// Reads a data line of *NSET or *ELSET: numbers, names of sets before it, or
 /// with GENERATE first, last and step.
 /// @throws InputError with file and line
-void read_set_line(const TextScanner& at, const Keyword& keyword,
+void read_set_line(const DeckPlace& at, const Keyword& keyword,
                    std::string_view line, const SetReading& reading);
 
 /// Sets of numbers of nodes or of elements, by their names in upper case.
 class DeckSets {
  public:
   /// Adds a data line. @throws InputError as read_set_line
-  void add_line(const TextScanner& at, const Keyword& keyword,
+  void add_line(const DeckPlace& at, const Keyword& keyword,
                 const std::string& name, std::string_view line);
   void add(const std::string& name, long number) {
     if (!name.empty()) sets_[name].push_back(number);

@@ -27,19 +27,19 @@ void refuse_options(const MatrixSystem& system, const Recipe& recipe) {
          "second-order kinematics (level nonlinear) need the elements' "
          "nonlinear strain; matrices, beams and shells here are of small "
          "strain. Use level coupled");
-  refuse(!recipe.materials.empty() && system.is_structure(),
+  refuse(!recipe.materials.empty() && system.is_structure,
          "a material is given, and its beams and shells have their own. Give "
          "none");
-  refuse(recipe.stress && system.is_structure(),
+  refuse(recipe.stress && system.is_structure,
          "stress of beams and shells is not computed. Recover it in the "
          "program that wrote the deck, from the displacements");
-  refuse(recipe.stress && !system.is_structure(),
+  refuse(recipe.stress && !system.is_structure,
          "stress needs elements; matrices have none. Recover it in the program "
          "that wrote them, from the displacements");
   refuse(!recipe.contact_groups.empty(),
          fmt::format("contact needs a surface of solid elements; {} have none. "
                      "Use a <collision> shape on the link, or a mesh of solids",
-                     system.is_structure() ? "beams and shells" : "matrices"));
+                     system.is_structure ? "beams and shells" : "matrices"));
   refuse(!recipe.nodal_forces.empty(),
          "files of nodal forces have a row for each node of a mesh; load "
          "interfaces of a model by matrices");

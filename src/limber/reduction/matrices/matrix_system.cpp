@@ -187,6 +187,7 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   system.edges = std::move(model.edges);
   system.triangles = std::move(model.triangles);
   system.drawn = model.drawn;
+  system.is_structure = model.is_structure;
   system.notices = std::move(model.notices);
   system.digits = model.stiffness.digits;
   system.M = std::move(model.mass.entries);

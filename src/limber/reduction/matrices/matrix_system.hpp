@@ -45,15 +45,14 @@ struct MatrixSystem {
   std::vector<fem::MatrixNodeSet> sets;
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> triangles;
-  std::size_t drawn = 0;  ///< of the nodes, for pictures only (MatrixModel)
+  std::size_t drawn = 0;      ///< of the nodes, for pictures only (MatrixModel)
+  bool is_structure = false;  ///< of a deck's elements (MatrixModel)
   std::vector<std::string> found;    ///< a line for each file
   std::vector<std::string> notices;  ///< what was changed or questionable
 
   [[nodiscard]] Eigen::Index row_count() const { return K.cols(); }
   /// Without those that are drawn only.
   [[nodiscard]] std::size_t node_count() const { return tags.size() - drawn; }
-  /// Whether it is of beams and shells.
-  [[nodiscard]] bool is_structure() const { return drawn > 0; }
   [[nodiscard]] bool has_moments() const { return moments[0].rows() > 0; }
   /// Edges of the bounding box of the moving nodes [m].
   [[nodiscard]] Vector3 size() const;

@@ -130,8 +130,12 @@ std::shared_ptr<const MatrixPart> read_structure_part(
   report(progress, "reading beams and shells", 0.0);
   const fem::Structure structure = fem::read_structure(source.file);
   if (files != nullptr) *files = structure.files;
+  if (structure.has_solids) report(progress, "reading solids", 0.0);
+  const fem::StructureSolids solids =
+      fem::read_structure_solids(structure, unit);
   report(progress, "assembling", 0.0);
-  fem::AssembledStructure assembled = fem::assemble_structure(structure);
+  fem::AssembledStructure assembled =
+      fem::assemble_structure(structure, solids);
   if (!(assembled.mass > 0.0))
     throw InputError(
         fmt::format("{}: its elements have no mass. Expected the density of "
@@ -144,7 +148,9 @@ std::shared_ptr<const MatrixPart> read_structure_part(
 }  // namespace
 
 bool is_node_model(const MeshSource& source) {
-  return source.is_matrices() || fem::is_structure(source.file);
+  // Who leaves cards of a deck of solids out has them alone.
+  return source.is_matrices() ||
+         fem::is_structure(source.file, source.ignored.empty());
 }
 
 std::shared_ptr<const MatrixPart> read_matrix_part(

@@ -269,9 +269,6 @@ TEST(SolidDeck, RefusesWhatIsWrongWithItsLine) {
       {"*END PART\n", "*END PART without"},
       {"*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n",
        "ends within *INSTANCE"},
-      {"*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
-       "*INSTANCE, NAME=J, PART=P\n",
-       "bad.inp:14: a second *INSTANCE"},
       {"*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n0, 0, 1, 2\n",
        "a line too many or too long"},
       {"*MATERIAL, NAME=M\n*MATERIAL, NAME=M\n", "material M is there twice"},
@@ -389,6 +386,38 @@ TEST(SolidDeck, AnInstanceMovesItsPartAndItsAxes) {
   EXPECT_LT((axes.directions.col(0) - Vector3::UnitY()).norm(), 1e-15);
   EXPECT_LT((axes.directions.col(1) + Vector3::UnitX()).norm(), 1e-15);
   EXPECT_THAT(deck.region_groups.at(0), ElementsAre("All", "Body"));
+}
+
+TEST(SolidDeck, InstancesHaveTheirOwnNodesSetsAndAxes) {
+  const SolidDeck deck = read_solid_deck(write_file(
+      "several.inp",
+      "*PART, NAME=P\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+      "*ELEMENT, TYPE=C3D4, ELSET=All\n1, 1, 2, 3, 4\n"
+      "*SURFACE, NAME=Foot\nAll, S1\n*NSET, NSET=Tip\n4\n"
+      "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n"
+      "*SOLID SECTION, ELSET=All, MATERIAL=M, ORIENTATION=O\n*END PART\n"
+      "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Left, PART=P\n*END INSTANCE\n"
+      "*INSTANCE, NAME=Right, PART=P\n5, 0, 0\n5, 0, 0, 5, 0, 1, 90\n"
+      "*END INSTANCE\n*NSET, NSET=Tips\nLeft.Tip, Right.4\n*END ASSEMBLY\n"
+      "*MATERIAL, NAME=M\n*ELASTIC, TYPE=ORTHO\n4, 1, 3, 1, 1, 3, 1, 1,\n1\n"
+      "*DENSITY\n1.\n"));
+  EXPECT_THAT(deck.nodes, ElementsAre(1, 2, 3, 4, 11, 12, 13, 14));
+  EXPECT_LT((deck.x.col(5) - Vector3(5.0, 1.0, 0.0)).norm(), 1e-14);
+  EXPECT_THAT(deck.solids.at(4).elements, ElementsAre(1, 11));
+  EXPECT_THAT(deck.region_groups,
+              ElementsAre(ElementsAre("Left.All"), ElementsAre("Right.All")));
+  const auto directions = [&](std::size_t region) {
+    return deck.materials.at(region).material.anisotropy->axes.directions;
+  };
+  EXPECT_LT((directions(0).col(0) - kX).norm(), 1e-15);
+  EXPECT_LT((directions(1).col(0) - kY).norm(), 1e-15);
+  std::vector<std::string> names;
+  for (const DeckGroup& group : deck.groups) names.push_back(group.name);
+  EXPECT_THAT(names, UnorderedElementsAre("Left.Foot", "Right.Foot", "Left.Tip",
+                                          "Right.Tip", "Tips"));
+  for (const DeckGroup& group : deck.groups)
+    if (group.name == "Tips")
+      EXPECT_THAT(group.elements.at(15).nodes, ElementsAre(4, 14));
 }
 
 TEST(SolidDeck, LeavesOutWhatItIsAskedTo) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/abaqus_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/text/text_scanner.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// Numbers of a set, or one; each once.
+std::set<long> list_numbers(const DeckSets& sets, const std::string& of,
+                            const char* what, const std::string& place) {
+  long number = 0;
+  if (parse_whole(of, number)) return {number};
+  const std::vector<long> numbers = sets.get(of);
+  if (numbers.empty())
+    throw InputError(
+        fmt::format("{}: its set of {} {} is missing or empty. Expected one.",
+                    place, what, echo(of)));
+  return {numbers.begin(), numbers.end()};
+}
+
+}  // namespace
+
+int AbaqusMesh::find_node(long number, const std::string& place) const {
+  const auto found = nodes.find(number);
+  if (found != nodes.end()) return found->second;
+  throw InputError(fmt::format(
+      "{}: node {} is missing. Expected it under *NODE.", place, number));
+}
+
+std::vector<int> AbaqusMesh::find_nodes(const std::string& of,
+                                        const std::string& place) const {
+  std::vector<int> found;
+  for (const long number : list_numbers(node_sets, of, "nodes", place))
+    found.push_back(find_node(number, place));
+  return found;
+}
+
+std::vector<const InputElement*> AbaqusMesh::find_elements(
+    const std::string& of, const std::string& place) const {
+  std::vector<const InputElement*> found;
+  for (const long number : list_numbers(element_sets, of, "elements", place)) {
+    const auto at = elements.find(number);
+    if (at == elements.end())
+      throw InputError(
+          fmt::format("{}: element {} is missing. Expected it under *ELEMENT.",
+                      place, number));
+    found.push_back(&at->second);
+  }
+  return found;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/structural/structure_solids.hpp"
+
+#include <utility>
+
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesher.hpp"
+
+namespace limber::fem {
+
+StructureSolids read_structure_solids(const Structure& structure, double unit) {
+  StructureSolids solids;
+  solids.unit = unit;
+  if (!structure.has_solids) return solids;
+  MeshOptions options;
+  options.unit = unit;
+  options.force = 1.0;
+  options.ignored = structure.beside_solids;
+  solids.mesh = run_mesher(find_mesher(), structure.files.at(0), options).mesh;
+  check_elements(solids.mesh);
+  find_boundary(solids.mesh);
+  check_faces(solids.mesh);
+  solids.materials = assign_materials(solids.mesh, {});
+  return solids;
+}
+
+}  // namespace limber::fem
