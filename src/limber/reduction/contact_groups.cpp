@@ -120,6 +120,14 @@ fem::ElasticMaterial find_material(
 
 }  // namespace
 
+ContactGroup make_contact_group(
+    const fem::Mesh& mesh, const std::string& name, Faces faces,
+    const std::vector<fem::ElasticMaterial>& materials) {
+  const fem::ElasticMaterial material =
+      find_material(mesh, name, faces, materials);
+  return {name, std::move(faces), material};
+}
+
 std::vector<ContactGroup> find_contact_groups(
     const fem::Mesh& mesh, const std::vector<std::string>& names,
     const std::vector<fem::ElasticMaterial>& materials) {
@@ -131,10 +139,8 @@ std::vector<ContactGroup> find_contact_groups(
       throw InputError(
           fmt::format("{}: contact group '{}' is named twice. Name it once.",
                       mesh.source, name));
-    Faces faces = find_faces(mesh, name);
-    const fem::ElasticMaterial material =
-        find_material(mesh, name, faces, materials);
-    groups.push_back({name, std::move(faces), material});
+    groups.push_back(
+        make_contact_group(mesh, name, find_faces(mesh, name), materials));
   }
   return groups;
 }

@@ -23,6 +23,14 @@ struct ContactGroup {
   fem::ElasticMaterial material;
 };
 
+/// @param faces of the mesh's boundary, at least one
+/// @param materials one a region of the mesh
+/// @throws InputError if they have several elasticities
+[[nodiscard]] ContactGroup make_contact_group(
+    const fem::Mesh& mesh, const std::string& name,
+    std::vector<fem::BoundaryFace> faces,
+    const std::vector<fem::ElasticMaterial>& materials);
+
 /// @param materials one a region of the mesh
 /// @throws InputError for a group that does not exist, has no faces on the
 /// surface, covers several elasticities, or is named twice; and for a mesh

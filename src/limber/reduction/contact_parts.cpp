@@ -370,7 +370,7 @@ Matrix3X place_corners(const Polygon& polygon, const Frame& frame,
 }  // namespace
 
 std::vector<ContactPart> make_contact_parts(
-    const MeshedBody& body, const fem::Surface& surface, const Vector3& normal,
+    const SkinnedBody& body, const fem::Surface& surface, const Vector3& normal,
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     double depth) {
   const std::vector<Sample> samples = sample_surface(body.mesh, surface);

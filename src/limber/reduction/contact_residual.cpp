@@ -11,57 +11,40 @@ namespace {
 /// The part of loads on patches outside of a basis and rigid motion.
 class Leftover {
  public:
-  Leftover(const MeshedBody& body, const ReducedBasis& basis)
-      : body_(body),
+  Leftover(const SkinnedBody& skinned, const ReducedBasis& basis)
+      : skinned_(skinned),
         basis_(basis),
-        row_of_(body.mesh.node_count(), -1),
-        answered_(fem::multiply_stiffness(body.support.matrices, basis.Phi) *
-                  basis.lambda.cwiseInverse().asDiagonal()) {
-    const std::vector<int>& free_nodes = body.support.free_nodes;
-    for (std::size_t i = 0; i < free_nodes.size(); ++i) {
-      row_of_[static_cast<std::size_t>(free_nodes[i])] = static_cast<int>(i);
-    }
-  }
+        answered_(
+            fem::multiply_stiffness(skinned.body.support.matrices, basis.Phi) *
+            basis.lambda.cwiseInverse().asDiagonal()) {}
 
-  /// F of patches [begin, end) on the free nodes, 3n x k; forces on clamped
-  /// nodes act on the clamp.
+  /// F of patches [begin, end) on the free degrees of freedom; forces on
+  /// clamped nodes act on the clamp.
   [[nodiscard]] MatrixX list_loads(const std::vector<ContactPatch>& patches,
                                    std::size_t begin, std::size_t end) const {
-    MatrixX F = MatrixX::Zero(body_.support.matrices.dof_count(),
-                              static_cast<Eigen::Index>(end - begin));
+    MatrixX loads =
+        MatrixX::Zero(3 * static_cast<Eigen::Index>(skinned_.mesh.node_count()),
+                      static_cast<Eigen::Index>(end - begin));
     for (std::size_t p = begin; p < end; ++p) {
       const ContactPatch& patch = patches[p];
-      for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
-        const int row = row_of_[static_cast<std::size_t>(patch.nodes[i])];
-        if (row < 0) continue;
-        F.col(static_cast<Eigen::Index>(p - begin)).segment<3>(3 * row) +=
+      for (std::size_t i = 0; i < patch.nodes.size(); ++i)
+        loads.col(static_cast<Eigen::Index>(p - begin))
+            .segment<3>(3 * static_cast<Eigen::Index>(patch.nodes[i])) +=
             patch.weights[static_cast<Eigen::Index>(i)] * patch.normal;
-      }
     }
-    return take_out(F);
+    return list_loads(loads);
   }
 
   /// The same of loads on all nodes, 3N x k.
   [[nodiscard]] MatrixX list_loads(const MatrixX& loads) const {
-    MatrixX F = MatrixX::Zero(body_.support.matrices.dof_count(), loads.cols());
-    for (std::size_t node = 0; node < row_of_.size(); ++node) {
-      const int row = row_of_[node];
-      if (row < 0) continue;
-      F.middleRows<3>(3 * row) =
-          loads.middleRows<3>(3 * static_cast<Eigen::Index>(node));
-    }
-    return take_out(F);
+    const MatrixX F = skinned_.put_on_free(loads);
+    return skinned_.body.inverse.project_load(
+        F - answered_ * (basis_.Phi.transpose() * F));
   }
 
  private:
-  [[nodiscard]] MatrixX take_out(const MatrixX& F) const {
-    return body_.inverse.project_load(F -
-                                      answered_ * (basis_.Phi.transpose() * F));
-  }
-
-  const MeshedBody& body_;
+  const SkinnedBody& skinned_;
   const ReducedBasis& basis_;
-  std::vector<int> row_of_;
   MatrixX answered_;  // K Phi Lambda^-1
 };
 
@@ -70,7 +53,7 @@ VectorX sum_products(const MatrixX& A, const MatrixX& B) {
 }
 
 // F^T K^+ F
-MatrixX multiply_flexibility(const MeshedBody& body, const MatrixX& F) {
+MatrixX multiply_flexibility(const ElasticBody& body, const MatrixX& F) {
   const MatrixX X = body.inverse.solve_shifted(F);
   const MatrixX R =
       F.transpose() * X -
@@ -81,14 +64,15 @@ MatrixX multiply_flexibility(const MeshedBody& body, const MatrixX& F) {
 
 }  // namespace
 
-VectorX calc_residual_flexibility(const MeshedBody& body,
+VectorX calc_residual_flexibility(const SkinnedBody& skinned,
                                   const ReducedBasis& basis,
                                   const std::vector<ContactPatch>& patches,
                                   const std::string& what,
                                   const Progress& progress) {
   // More columns are solved at once faster, but need more memory.
   constexpr std::size_t kBlock = 32;
-  const Leftover leftover(body, basis);
+  const ElasticBody& body = skinned.body;
+  const Leftover leftover(skinned, basis);
   VectorX residual(static_cast<Eigen::Index>(patches.size()));
   for (std::size_t begin = 0; begin < patches.size(); begin += kBlock) {
     report(progress, what,
@@ -105,9 +89,10 @@ VectorX calc_residual_flexibility(const MeshedBody& body,
   return residual;
 }
 
-MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
-                             const MatrixX& loads) {
-  return multiply_flexibility(body, Leftover(body, basis).list_loads(loads));
+MatrixX calc_residual_matrix(const SkinnedBody& skinned,
+                             const ReducedBasis& basis, const MatrixX& loads) {
+  return multiply_flexibility(skinned.body,
+                              Leftover(skinned, basis).list_loads(loads));
 }
 
 double calc_hertz_share(const fem::ElasticMaterial& material, double radius) {

@@ -32,8 +32,9 @@ Vector3 find_centre(const fem::Surface& surface) {
   return centre / static_cast<double>(surface.points.size());
 }
 
-/// Of corners by solution, of the points between them as their mean.
-VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
+/// Of corners by solution, of the points between them as their mean. Hertz's
+/// share is in what solid elements answer, not in beams' and shells' answer.
+VectorX find_residual(const SkinnedBody& body, const ReducedBasis& basis,
                       const fem::Surface& surface,
                       std::vector<ContactPatch> patches,
                       const ContactGroup& group, const Progress& progress) {
@@ -46,8 +47,9 @@ VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
       body, basis, patches, fmt::format("contact surface '{}'", group.name),
       progress);
   for (Eigen::Index p = 0; p < corners; ++p) {
-    residual[p] -= calc_hertz_share(
-        group.material, patches[static_cast<std::size_t>(p)].radius);
+    const auto at = static_cast<std::size_t>(p);
+    if (body.has_depth(surface.points[at].node))
+      residual[p] -= calc_hertz_share(group.material, patches[at].radius);
   }
   for (Eigen::Index p = corners; p < residual.size(); ++p) {
     const std::array<int, 2>& ends =
@@ -114,7 +116,7 @@ void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
 }
 
 std::vector<ContactSlice> make_contact_slices(
-    const MeshedBody& body, const fem::Surface& surface,
+    const SkinnedBody& body, const fem::Surface& surface,
     const fem::ElasticMaterial& material, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center) {
   const std::vector<SurfaceSample> samples = sample_surface(body.mesh, surface);
@@ -149,7 +151,7 @@ std::vector<ContactSlice> make_contact_slices(
   return slices;
 }
 
-ContactSurface make_contact_surface(const MeshedBody& body,
+ContactSurface make_contact_surface(const SkinnedBody& body,
                                     const ContactGroup& group,
                                     const ReducedBasis& basis,
                                     const MatrixX& Phi, const Vector3& center,
@@ -221,9 +223,19 @@ FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
 std::vector<ContactSurface> make_contact_surfaces(
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress) {
+  return make_contact_surfaces(
+      body,
+      find_contact_groups(body.mesh, recipe.contact_groups,
+                          find_materials(body.mesh, recipe)),
+      basis, Phi, center, progress);
+}
+
+std::vector<ContactSurface> make_contact_surfaces(
+    const SkinnedBody& body, const std::vector<ContactGroup>& groups,
+    const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
+    const Progress& progress) {
   std::vector<ContactSurface> surfaces;
-  for (const ContactGroup& group : find_contact_groups(
-           body.mesh, recipe.contact_groups, find_materials(body.mesh, recipe)))
+  for (const ContactGroup& group : groups)
     surfaces.push_back(
         make_contact_surface(body, group, basis, Phi, center, progress));
   return surfaces;

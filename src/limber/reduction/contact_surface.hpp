@@ -7,7 +7,8 @@
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
-#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/contact_groups.hpp"
+#include "limber/reduction/skinned_body.hpp"
 
 /// Surfaces of a body that may touch others. Part of limber_reduction.
 namespace limber::flexbody {
@@ -19,6 +20,12 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<ContactSurface> make_contact_surfaces(
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress);
+
+/// The surfaces of groups. @param Phi 3N x m rows of the skin's nodes
+[[nodiscard]] std::vector<ContactSurface> make_contact_surfaces(
+    const SkinnedBody& body, const std::vector<ContactGroup>& groups,
+    const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
+    const Progress& progress);
 
 /// The same for the body without reduction.
 /// @param materials one a region of the mesh

@@ -20,6 +20,7 @@
 #include "limber/reduction/modal/static_modes.hpp"
 #include "limber/reduction/pieces.hpp"
 #include "limber/reduction/rows.hpp"
+#include "limber/reduction/structure_contact.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -172,6 +173,21 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
   return mesh;
 }
 
+void add_skin(const fem::ModelSkin& skin, Digest& digest) {
+  for (const fem::ElementBlock& block : skin.mesh.blocks) {
+    digest.add(block.element->gmsh_type);
+    for (const int node : block.nodes) digest.add(node);
+    for (const int region : block.regions) digest.add(region);
+  }
+  for (const SolidMaterial& material : skin.materials) {
+    digest.add(material.youngs_modulus);
+    digest.add(material.poisson_ratio);
+  }
+  for (const int base : skin.bases) digest.add(base);
+  for (const fem::ModelSkin::Side side : skin.sides)
+    digest.add(static_cast<int>(side));
+}
+
 /// Digest of what the tables depend on, apart from the recipe.
 std::string find_content(const MatrixPart& part) {
   const MatrixSystem& system = part.system;
@@ -204,7 +220,15 @@ std::string find_content(const MatrixPart& part) {
   digest.add(system.triangles.size());
   for (const auto& nodes : system.triangles)
     for (const int node : nodes) digest.add(node);
+  add_skin(system.skin, digest);
   return digest.text();
+}
+
+ReducedBody reduce_part(const Recipe& recipe,
+                        const std::shared_ptr<const MatrixPart>& part,
+                        const Progress& progress) {
+  return reduce_matrices(recipe, part, progress,
+                         make_structure_surfaces(part, recipe, progress));
 }
 
 MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
@@ -213,7 +237,7 @@ MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
   mesh.record = {find_content(*part), part->system.notices, part->system.found,
                  std::move(files), true};
   mesh.reduce = [part, progress](const Recipe& recipe) {
-    return reduce_matrices(recipe, part, progress);
+    return reduce_part(recipe, part, progress);
   };
   mesh.take_piece = [part](const Piece&) -> MeshAtHand {
     throw InputError(
@@ -230,8 +254,8 @@ MeshAtHand at_hand(const std::shared_ptr<const MatrixPart>& part,
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   if (is_node_model(recipe.mesh))
-    return reduce_matrices(recipe, read_matrix_part(recipe.mesh, progress),
-                           progress);
+    return reduce_part(recipe, read_matrix_part(recipe.mesh, progress),
+                       progress);
   return reduce(MeshedBody(recipe, progress), recipe, progress);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
@@ -30,6 +31,18 @@ struct ModelMatrix {
 struct MatrixNodeSet {
   std::string name;
   std::vector<int> nodes;  ///< sorted indices into MatrixModel::tags
+};
+
+/// What of a structure may touch others: solids that fill its shells and beams,
+/// and its solid elements.
+struct ModelSkin {
+  Mesh mesh;  ///< blocks alone; its nodes are those of the model
+  std::vector<SolidMaterial> materials;  ///< by region, in SI units
+  /// By node: the one that it moves with, of those on faces of shells and
+  /// outlines of beams; else itself.
+  std::vector<int> bases;
+  enum class Side : char { none, bottom, top };
+  std::vector<Side> sides;  ///< by node, of shells
 };
 
 /// A finite-element model by its matrices, as its files give it: in their
@@ -55,8 +68,9 @@ struct MatrixModel {
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> triangles;
   /// The last nodes, on faces of shells and outlines of beams, that are there
-  /// for pictures only.
+  /// for pictures and contact only.
   std::size_t drawn = 0;
+  ModelSkin skin;                    ///< of structures; else empty
   bool is_structure = false;         ///< of beams, shells and solids of a deck
   std::vector<std::string> notices;  ///< what is questionable
 };

@@ -285,7 +285,7 @@ class StructureAssembler {
 
   void sum_matrices() {
     StructuralMatrices solid;
-    if (structure_.has_solids)
+    if (!solids_.mesh.blocks.empty())
       solid = assemble_elements(solids_.mesh, solids_.materials);
     MatrixModel& model = result_.model;
     const Sparse K = reduce(list_stiffness(solid));

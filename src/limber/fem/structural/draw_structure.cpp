@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <utility>
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/fem/mesh/linear_cell.hpp"
 
 namespace limber::fem {
 namespace {
@@ -23,6 +25,8 @@ struct FaceNode {
   std::array<int, 2> drawn;  ///< nodes of the model below and above
 };
 
+using Side = ModelSkin::Side;
+
 class StructureDrawer {
  public:
   StructureDrawer(const PlacedStructure& placed, MatrixModel& model)
@@ -30,10 +34,14 @@ class StructureDrawer {
 
   void draw() {
     next_tag_ = find_first_tag();
+    for (int n = 0; n < static_cast<int>(model_.tags.size()); ++n)
+      model_.skin.bases.push_back(n);
+    model_.skin.sides.assign(model_.tags.size(), Side::none);
     add_led_nodes();
     draw_shells();
     for (const StructureBeam& beam : structure_.beams) draw_beam(beam);
     draw_solids();
+    fill_skin();
     finish();
   }
 
@@ -64,8 +72,10 @@ class StructureDrawer {
   }
 
   /// A node at `d` from another, with which it moves. @returns its index
-  int add_node(int node, const Vector3& d) {
+  int add_node(int node, const Vector3& d, Side side = Side::none) {
     const auto drawn = static_cast<int>(model_.tags.size());
+    model_.skin.bases.push_back(placed_.places[index(node)]);
+    model_.skin.sides.push_back(side);
     model_.tags.push_back(next_tag_++);
     points_.emplace_back(structure_.x.col(node) + d);
     const Matrix3 turn = -skew(d);
@@ -124,10 +134,29 @@ class StructureDrawer {
     for (std::size_t i = 0; i < face_nodes_.size(); ++i) {
       FaceNode& face = face_nodes_[i];
       const Vector3 n = face.sum.normalized();
-      face.drawn = {add_node(base_[i], face.bottom * n),
-                    add_node(base_[i], face.top * n)};
+      face.drawn = {add_node(base_[i], face.bottom * n, Side::bottom),
+                    add_node(base_[i], face.top * n, Side::top)};
     }
-    for (const std::vector<int>& polygon : polygons) draw_shell(polygon, sides);
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      draw_shell(polygons[i], sides);
+      fill_shell(polygons[i], structure_.shells[i].laminate);
+    }
+  }
+
+  void fill_shell(const std::vector<int>& polygon, int laminate) {
+    std::vector<int> nodes;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+      for (const int face : polygon)
+        nodes.push_back(face_nodes_[index(face)].drawn[side]);
+    add_cell(nodes, laminate);
+  }
+
+  /// Of six or eight nodes.
+  void add_cell(const std::vector<int>& nodes, int region) {
+    ElementBlock& block = cells_[nodes.size() == 8 ? 1 : 0];
+    block.tags.push_back(block.tags.size() + 1);
+    block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+    block.regions.push_back(region);
   }
 
   void draw_shell(const std::vector<int>& polygon,
@@ -192,6 +221,54 @@ class StructureDrawer {
       model_.triangles.push_back({rings[0][0], rings[0][i + 1], rings[0][i]});
       model_.triangles.push_back({rings[1][0], rings[1][i], rings[1][i + 1]});
     }
+    fill_beam(rings,
+              static_cast<int>(structure_.laminates.size()) + beam.property);
+  }
+
+  void fill_beam(const std::array<std::vector<int>, 2>& rings, int region) {
+    const std::size_t n = rings[0].size();
+    if (n == 4) {
+      std::vector<int> nodes = rings[0];
+      nodes.insert(nodes.end(), rings[1].begin(), rings[1].end());
+      return add_cell(nodes, region);
+    }
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      add_cell({rings[0][0], rings[0][i], rings[0][i + 1], rings[1][0],
+                rings[1][i], rings[1][i + 1]},
+               region);
+  }
+
+  /// Moduli of faces: of a ply across its fibres, as through its thickness.
+  void fill_skin() {
+    ModelSkin& skin = model_.skin;
+    const double area = placed_.solids.unit * placed_.solids.unit;
+    for (const Laminate& laminate : structure_.laminates)
+      skin.materials.push_back(
+          {laminate.outer.E_2 / area, laminate.outer.nu_12, 0.0});
+    for (const BeamProperty& property : structure_.beam_properties) {
+      const BeamMaterial& m = property.material;
+      skin.materials.push_back({m.youngs_modulus / area,
+                                0.5 * m.youngs_modulus / m.shear_modulus - 1.0,
+                                0.0});
+    }
+    const auto first = static_cast<int>(skin.materials.size());
+    skin.materials.insert(skin.materials.end(),
+                          placed_.solids.materials.begin(),
+                          placed_.solids.materials.end());
+    constexpr std::array<LinearCell, 2> kCells = {LinearCell::wedge,
+                                                  LinearCell::hexahedron};
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (cells_[i].tags.empty()) continue;
+      cells_[i].element =
+          std::make_shared<const ReferenceElement>(make_linear_cell(kCells[i]));
+      skin.mesh.blocks.push_back(std::move(cells_[i]));
+    }
+    for (ElementBlock block : placed_.solids.mesh.blocks) {
+      for (int& node : block.nodes)
+        node = placed_.places[index(placed_.solid_nodes[index(node)])];
+      for (int& region : block.regions) region += first;
+      skin.mesh.blocks.push_back(std::move(block));
+    }
   }
 
   void draw_solids() {
@@ -222,7 +299,8 @@ class StructureDrawer {
   std::vector<Vector3> points_;
   std::vector<Eigen::Triplet<double>> entries_;
   std::vector<FaceNode> face_nodes_;
-  std::vector<int> base_;  // nodes of face_nodes_
+  std::vector<int> base_;              // nodes of face_nodes_
+  std::array<ElementBlock, 2> cells_;  // wedges and hexahedra
   std::map<int, std::vector<int>> faces_of_;
 };
 

@@ -97,6 +97,7 @@ Laminate make_laminate(const std::vector<Ply>& plies, double bottom) {
     z = end;
   }
   laminate.top = z;
+  if (!plies.empty()) laminate.outer = plies.back().material;
   laminate.S = calc_shear(plies, laminate);
   return laminate;
 }

@@ -40,8 +40,9 @@ struct Laminate {
   double mass = 0.0;            ///< int rho dz
   double first_mass = 0.0;      ///< int rho z dz
   double second_mass = 0.0;     ///< int rho z^2 dz
-  double bottom = 0.0;          ///< z of its lower face, for pictures
-  double top = 0.0;             ///< z of its upper face, for pictures
+  double bottom = 0.0;          ///< z of its lower face
+  double top = 0.0;             ///< z of its upper face
+  PlyMaterial outer = {};       ///< of the upper face, for contact
 };
 
 /// Plies from bottom to top, the lowest beginning at z = bottom.

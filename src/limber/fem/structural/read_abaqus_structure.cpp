@@ -109,7 +109,11 @@ class StructureDeckReader {
             "S3, S4 (or S4R), solids (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, "
             "C3D5) and MASS.",
             echo(keyword.get("TYPE"))));
-      if (solid_ == nullptr) beside_.insert(keyword.get("TYPE"));
+      if (solid_ == nullptr)
+        beside_.insert(keyword.get("TYPE"));
+      else if (keyword.get("TYPE") != solid_->name)
+        integrated_.insert(
+            fmt::format("{} as {}", keyword.get("TYPE"), solid_->name));
     } else if (name == "NSET") {
       kind_ = LineKind::nset;
       if (keyword.has("ELSET"))
@@ -355,6 +359,10 @@ class StructureDeckReader {
     structure_.beside_solids = {"*RIGID BODY", "*COUPLING", "*MPC"};
     structure_.beside_solids.insert(structure_.beside_solids.end(),
                                     beside_.begin(), beside_.end());
+    if (!integrated_.empty())
+      structure_.notices.push_back(
+          fmt::format("{}: read with the integration of this program: {}.",
+                      structure_.source, fmt::join(integrated_, ", ")));
     std::vector<std::string> unused;
     for (const auto& [name, count] : unused_)
       unused.push_back(fmt::format("{} *{}", count, name));
@@ -373,6 +381,7 @@ class StructureDeckReader {
   AbaqusTies ties_;
   const SolidType* solid_ = nullptr;  // of the elements that come
   std::set<std::string> beside_;      // types of elements that are no solids
+  std::set<std::string> integrated_;  // solids with another integration
   std::vector<long> element_;         // numbers of one that goes on
   std::set<long> described_;
   std::map<std::string, double> masses_;  // by set of elements

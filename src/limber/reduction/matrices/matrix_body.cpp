@@ -36,10 +36,9 @@ void refuse_options(const MatrixSystem& system, const Recipe& recipe) {
   refuse(recipe.stress && !system.is_structure,
          "stress needs elements; matrices have none. Recover it in the program "
          "that wrote them, from the displacements");
-  refuse(!recipe.contact_groups.empty(),
-         fmt::format("contact needs a surface of solid elements; {} have none. "
-                     "Use a <collision> shape on the link, or a mesh of solids",
-                     system.is_structure ? "beams and shells" : "matrices"));
+  refuse(!recipe.contact_groups.empty() && !system.is_structure,
+         "contact needs a surface of elements; matrices have none. Use a "
+         "<collision> shape on the link, or a mesh");
   refuse(!recipe.nodal_forces.empty(),
          "files of nodal forces have a row for each node of a mesh; load "
          "interfaces of a model by matrices");
@@ -59,6 +58,16 @@ std::vector<int> find_clamped_rows(const MatrixSystem& system,
   for (int i = 0; i < system.row_count(); ++i)
     if (nodes.contains(system.rows[static_cast<std::size_t>(i)].node))
       rows.push_back(i);
+  if (system.is_structure) {
+    std::set<int> led = nodes;
+    for (const int row : rows)
+      led.erase(system.rows[static_cast<std::size_t>(row)].node);
+    if (!led.empty())
+      throw InputError(fmt::format(
+          "{}: the clamped {} would be held, but rigid elements or means lead "
+          "it. Expected the nodes that lead, which hold those that they lead.",
+          system.source, system.name_nodes({led.begin(), led.end()})));
+  }
   if (!nodes.empty() && rows.empty())
     throw InputError(fmt::format(
         "{}: the clamped {} has no row in the matrices", system.source,

@@ -46,6 +46,7 @@ struct MatrixSystem {
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> triangles;
   std::size_t drawn = 0;      ///< of the nodes, for pictures only (MatrixModel)
+  fem::ModelSkin skin;        ///< of structures
   bool is_structure = false;  ///< of a deck's elements (MatrixModel)
   std::vector<std::string> found;    ///< a line for each file
   std::vector<std::string> notices;  ///< what was changed or questionable

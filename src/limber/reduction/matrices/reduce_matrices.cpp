@@ -11,7 +11,6 @@
 #include "limber/fem/matrices/read_matrices.hpp"
 #include "limber/fem/structural/assemble_structure.hpp"
 #include "limber/fem/structural/read_structure.hpp"
-#include "limber/reduction/matrices/matrix_body.hpp"
 #include "limber/reduction/matrices/matrix_inertia.hpp"
 #include "limber/reduction/matrices/matrix_interfaces.hpp"
 #include "limber/reduction/modal/selection.hpp"
@@ -167,7 +166,8 @@ std::shared_ptr<const MatrixPart> read_matrix_part(
 
 ReducedBody reduce_matrices(const Recipe& recipe,
                             const std::shared_ptr<const MatrixPart>& part,
-                            const Progress& progress) {
+                            const Progress& progress,
+                            const SurfaceMaker& make_surfaces) {
   report(progress, "factorising", 0.0);
   const MatrixBody meshed(recipe, part);
   const MatrixSystem& system = part->system;
@@ -199,6 +199,9 @@ ReducedBody reduce_matrices(const Recipe& recipe,
   body.mesh_boundary_nodes = system.node_count();
   keep_nodes(meshed, recipe, fields, body);
   add_interfaces(meshed, modes, fields, body);
+  if (make_surfaces)
+    body.contact_surfaces =
+        make_surfaces(meshed, basis, fields, body.p_MoBcm_M);
   report(progress, "reduced", 1.0);
   return body;
 }

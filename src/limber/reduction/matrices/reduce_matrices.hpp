@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "limber/common/progress.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/reduction/matrices/matrix_body.hpp"
 #include "limber/reduction/matrices/matrix_part.hpp"
 
 /// Reduction of a model given by matrices. Part of limber_reduction.
@@ -22,12 +26,20 @@ namespace limber::flexbody {
     const MeshSource& source, const Progress& progress = {},
     std::vector<std::filesystem::path>* files = nullptr);
 
+/// Makes the surfaces of a body that may touch others.
+/// @param fields its modes at all nodes, six rows a node (field_row)
+/// @param center of mass, in the model's frame [m]
+using SurfaceMaker = std::function<std::vector<ContactSurface>(
+    const MatrixBody& body, const ReducedBasis& basis, const MatrixX& fields,
+    const Vector3& center)>;
+
 /// Modes, static-deformation modes and tables like those of a mesh. The stored
 /// rows are translations of nodes, also of condensed ones.
+/// @param make_surfaces none: the body has none
 /// @throws InputError as MatrixBody; NumericalError if an eigenpair or a solve
 /// misses its tolerance
 [[nodiscard]] ReducedBody reduce_matrices(
     const Recipe& recipe, const std::shared_ptr<const MatrixPart>& part,
-    const Progress& progress = {});
+    const Progress& progress = {}, const SurfaceMaker& make_surfaces = {});
 
 }  // namespace limber::flexbody

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -415,9 +416,9 @@ TEST(SolidDeck, InstancesHaveTheirOwnNodesSetsAndAxes) {
   for (const DeckGroup& group : deck.groups) names.push_back(group.name);
   EXPECT_THAT(names, UnorderedElementsAre("Left.Foot", "Right.Foot", "Left.Tip",
                                           "Right.Tip", "Tips"));
-  for (const DeckGroup& group : deck.groups)
-    if (group.name == "Tips")
-      EXPECT_THAT(group.elements.at(15).nodes, ElementsAre(4, 14));
+  const auto tips =
+      std::ranges::find(deck.groups, std::string("Tips"), &DeckGroup::name);
+  EXPECT_THAT(tips->elements.at(15).nodes, ElementsAre(4, 14));
 }
 
 TEST(SolidDeck, LeavesOutWhatItIsAskedTo) {
