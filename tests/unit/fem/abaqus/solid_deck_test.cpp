@@ -278,7 +278,7 @@ TEST(SolidDeck, RefusesWhatIsWrongWithItsLine) {
        "MATERIAL=M\n*SOLID SECTION, ELSET=B, MATERIAL=M\n",
        "element 10 has two sections, of the sets A and B"},
       {"*INCLUDE, INPUT=none.inp\n", "none.inp"},
-      {"*INCLUDE, INPUT=bad.inp\n", "is there twice"},
+      {"*INCLUDE, INPUT=bad.inp\n", "none that includes itself"},
   };
   for (const auto& [more, what] : cases)
     EXPECT_THAT(find_error(more, kTwo), HasSubstr(what)) << more;

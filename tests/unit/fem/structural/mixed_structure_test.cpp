@@ -40,7 +40,7 @@ std::string find_error(const std::string& name, const std::string& text) {
 
 /// A block of 2 x 1 x 1 with a beam of 1 from the middle of its end.
 const std::string kBlock =
-    "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\n"
+    "$ block and beam\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\n"
     "GRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\nGRID,6,,2.,0.,1.\nGRID,7,,2.,1.,1.\n"
     "GRID,8,,0.,1.,1.\nGRID,11,,2.,.5,.5\nGRID,12,,3.,.5,.5\n"
     "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\nMAT1,1,7.E+10,,.3,2700.\n"
@@ -175,8 +175,7 @@ TEST(MixedStructure, AMeanMovesByTheWeightsOfItsNodes) {
 TEST(MixedStructure, TellsHingesAndSolidsOfFirstOrder) {
   std::string text = kBlock +
                      "CTRIA3,7,9,5,6,7\nCTRIA3,8,9,5,7,8\n"
-                     "PSHELL,9,1,.01,1,,1\n" +
-                     kSpider;
+                     "PSHELL,9,1,.01,1,,1\nRBE2,3,11,123456,2,3,6,7\n";
   const MatrixModel model = read("hinge.bdf", text).model;
   EXPECT_THAT(model.notices,
               Contains(HasSubstr("share 2 nodes with solids, the first is 5")));
@@ -201,7 +200,7 @@ TEST(MixedStructure, RefusesWhatIsWrongInANastranDeckWithItsLine) {
       {"RBE3,3,,11,123456,1.,123,2\n,3,6,UM,2,123\n", "'UM' is in place of"},
       {kSpider + "RBE2,4,12,123456,2\n",
        "bad.bdf:20: node 2 moves with another rigid element already"},
-      {kSpider + "RBE3,4,,2,123456,1.,123,1\n,4,5\n",
+      {"RBE2,3,11,123456,2,3,6,7\nRBE3,4,,2,123456,1.,123,1\n,4,5\n",
        "bad.bdf:20: node 2 moves with another"},
       {kSpider + "CONM2,4,1,,5.,.1\n", "bad.bdf:20: a mass with an offset"},
       {kSpider + "CELAS2,4,1.,1,1\n", "bad.bdf:20: CELAS2 is not read"},
@@ -209,7 +208,7 @@ TEST(MixedStructure, RefusesWhatIsWrongInANastranDeckWithItsLine) {
   for (const auto& [more, what] : cases)
     EXPECT_THAT(find_error("bad.bdf", kBlock + more), HasSubstr(what)) << more;
   std::string turned = kBlock + kSpider;
-  turned.replace(turned.find("1,2,3,4,5,6\n,7,8"), 15, "5,6,7,8,1,2\n,3,4");
+  turned.replace(turned.find("1,2,3,4,5,6\n,7,8"), 16, "5,6,7,8,1,2\n,3,4");
   EXPECT_THAT(find_error("bad.bdf", turned), HasSubstr("is inverted"));
 }
 
@@ -223,7 +222,7 @@ const std::string kInput =
     "*SOLID SECTION, ELSET=Block, MATERIAL=M\n"
     "*BEAM SECTION, ELSET=Beam, MATERIAL=M, SECTION=RECT\n.1, .2\n0, 0, 1\n"
     "*NSET, NSET=Face\n2, 3, 6, 7\n*NSET, NSET=Hub\n11\n"
-    "*SURFACE, NAME=End\nBlock, S4\n";  // to line 29
+    "*SURFACE, NAME=End\nBlock, S4\n";  // to line 30
 
 TEST(MixedStructure, RigidPartsOfInputFilesAreAlike) {
   const MatrixModel first =
@@ -261,36 +260,36 @@ TEST(MixedStructure, ADistributionOfAFaceWeighsItsNodesByArea) {
 
 TEST(MixedStructure, RefusesWhatIsWrongInAnInputFileWithItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"*TIE, NAME=T\nA, B\n", "bad.inp:30: *TIE is not read"},
-      {"*RIGID BODY, NSET=Face\n", "bad.inp:30: *RIGID BODY. Expected NSET"},
+      {"*TIE, NAME=T\nA, B\n", "bad.inp:31: *TIE is not read"},
+      {"*RIGID BODY, NSET=Face\n", "bad.inp:31: *RIGID BODY. Expected NSET"},
       {"*RIGID BODY, NSET=No, REF NODE=11\n", "its set of nodes NO is missing"},
       {"*RIGID BODY, NSET=Face, REF NODE=Face\n", "a set of 4 nodes"},
-      {"*RIGID BODY, NSET=Face, REF NODE=99\n", "bad.inp:30: node 99"},
+      {"*RIGID BODY, NSET=Face, REF NODE=99\n", "bad.inp:31: node 99"},
       {"*RIGID BODY, NSET=Face, REF NODE=11, POSITION=INPUT\n",
-       "bad.inp:30: *RIGID BODY has POSITION"},
+       "bad.inp:31: *RIGID BODY has POSITION"},
       {"*COUPLING, SURFACE=End, REF NODE=11\n",
-       "bad.inp:30: *COUPLING has no kind"},
+       "bad.inp:31: *COUPLING has no kind"},
       {"*COUPLING, SURFACE=No, REF NODE=11\n*KINEMATIC\n",
-       "bad.inp:30: its surface NO is missing"},
+       "bad.inp:31: its surface NO is missing"},
       {"*COUPLING, SURFACE=End, REF NODE=11\n*KINEMATIC\n1, 2\n",
-       "bad.inp:30: components 12 are held"},
+       "bad.inp:31: components 12 are held"},
       {"*COUPLING, SURFACE=End, REF NODE=11\n*DISTRIBUTING\n1, 3\n",
-       "bad.inp:30: components 123 are held"},
+       "bad.inp:31: components 123 are held"},
       {"*COUPLING, SURFACE=End, REF NODE=11\n*KINEMATIC\n1, 7\n",
-       "bad.inp:32: *KINEMATIC has no components"},
+       "bad.inp:33: *KINEMATIC has no components"},
       {"*COUPLING, SURFACE=End, REF NODE=11\n*DISTRIBUTING, WEIGHTING "
        "METHOD=LINEAR\n",
-       "bad.inp:31: *DISTRIBUTING of another kind"},
-      {"*KINEMATIC\n", "bad.inp:30: *KINEMATIC without *COUPLING"},
-      {"*MPC\nPIN, 11, 2\n", "bad.inp:31: *MPC PIN is not read"},
+       "bad.inp:32: *DISTRIBUTING of another kind"},
+      {"*KINEMATIC\n", "bad.inp:31: *KINEMATIC without *COUPLING"},
+      {"*MPC\nPIN, 11, 2\n", "bad.inp:32: *MPC PIN is not read"},
       {"*SURFACE, NAME=X\nBeam, S1\n*COUPLING, SURFACE=X, REF NODE=11\n"
        "*KINEMATIC\n",
-       "bad.inp:31: S1 of elements B31 is not read"},
+       "bad.inp:32: S1 of elements B31 is not read"},
       {"*ELEMENT, TYPE=S8R, ELSET=S\n9, 1, 2, 3, 4, 5, 6, 7, 8\n",
-       "bad.inp:30: elements S8R are not read"},
+       "bad.inp:31: elements S8R are not read"},
       {"*RIGID BODY, NSET=Face, REF NODE=11\n*SHELL SECTION, ELSET=Block, "
        "MATERIAL=M\n.1\n",
-       "bad.inp:31: element 1 is a C3D8"},
+       "bad.inp:32: element 1 is a C3D8"},
   };
   for (const auto& [more, what] : cases)
     EXPECT_THAT(find_error("bad.inp", kInput + more), HasSubstr(what)) << more;

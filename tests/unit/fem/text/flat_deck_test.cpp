@@ -79,13 +79,14 @@ TEST(FlatDeck, OneInstanceKeepsItsNumbersAndNames) {
       read(kPart +
            "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Rod-1, PART=Rod\n*END INSTANCE\n"
            "*NSET, NSET=Mine\nrod-1.Ends, Rod-1.1, 20\n*END ASSEMBLY\n");
-  EXPECT_THAT(flat.lines,
-              ElementsAre("2: *NODE NSET=ALL|All", "3: 1,0,0,0", "4: 20,1,0,0",
-                          "5: *ELEMENT ELSET=BARS|Bars", "6: 5,1,", "7: 20",
-                          "8: *NSET NSET=ENDS|Ends", "9: 1,20,19",
-                          "10: *SURFACE NAME=SKIN|Skin", "11: Bars,S1",
-                          "13: *ASSEMBLY NAME=A|A", "16: *NSET NSET=MINE|Mine",
-                          "17: Ends,1,20", "18: *END ASSEMBLY"));
+  EXPECT_THAT(
+      flat.lines,
+      ElementsAre("13: *ASSEMBLY NAME=A|A", "2: *NODE NSET=ALL|All",
+                  "3: 1,0,0,0", "4: 20,1,0,0", "5: *ELEMENT ELSET=BARS|Bars",
+                  "6: 5,1,", "7: 20", "8: *NSET NSET=ENDS|Ends", "9: 1,20,19",
+                  "10: *SURFACE NAME=SKIN|Skin", "11: Bars,S1",
+                  "16: *NSET NSET=MINE|Mine", "17: Ends,1,20",
+                  "18: *END ASSEMBLY"));
   EXPECT_THAT(flat.notices, IsEmpty());
 }
 
