@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/fem/matrices/section_stress.hpp"
 #include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
@@ -70,8 +71,10 @@ struct MatrixModel {
   /// The last nodes, on faces of shells and outlines of beams, that are there
   /// for pictures and contact only.
   std::size_t drawn = 0;
-  ModelSkin skin;                    ///< of structures; else empty
-  bool is_structure = false;         ///< of beams, shells and solids of a deck
+  ModelSkin skin;             ///< of structures; else empty
+  bool is_structure = false;  ///< of beams, shells and solids of a deck
+  /// Of beams and shells, by their motion; empty: not known.
+  RecoverSections recover_sections;
   std::vector<std::string> notices;  ///< what is questionable
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "limber/common/echo.hpp"
@@ -79,7 +80,9 @@ bool AbaqusSections::begin(const DeckPlace& at, const Keyword& keyword,
           at.text());
   } else if (name == "BEAM SECTION" || name == "SHELL SECTION") {
     begin_section(at, keyword, pose);
-  } else if (name != "DENSITY") {
+  } else if (name == "FAIL STRESS" && !materials_.contains(name_)) {
+    at.fail("*FAIL STRESS has no *MATERIAL before it. Expected one.");
+  } else if (name != "DENSITY" && name != "FAIL STRESS") {
     reading_.clear();
   }
   return !reading_.empty();
@@ -114,6 +117,8 @@ void AbaqusSections::add_data(const DeckPlace& at, std::string_view line) {
     for (const std::string_view field : fields)
       material.elastic.push_back(read_real(at, field));
     if (material.elastic.size() > most - 8) material.elastic.resize(most);
+  } else if (reading_ == "FAIL STRESS") {
+    add_strengths(at, fields);
   } else if (reading_ == "DENSITY") {
     if (!materials_[name_].density)
       materials_[name_].density = read_real(at, fields[0]);
@@ -125,6 +130,27 @@ void AbaqusSections::add_data(const DeckPlace& at, std::string_view line) {
       texts.push_back(to_upper(std::string(field)));
     sections_.back().lines.push_back(std::move(texts));
   }
+}
+
+/// Xt, Xc, Yt, Yc, S, limits in compression of either sign; then f*, with F12 =
+/// f* sqrt(F11 F22).
+void AbaqusSections::add_strengths(
+    const DeckPlace& at, const std::vector<std::string_view>& fields) {
+  Vector6& s = materials_[name_].strengths;
+  if (!s.isZero(0.0))
+    at.fail(
+        "*FAIL STRESS depends on the temperature, or is there twice. Expected "
+        "one line of it.");
+  for (std::size_t i = 0; i < std::min<std::size_t>(fields.size(), 6); ++i)
+    s[static_cast<Eigen::Index>(i)] = read_real(at, fields[i]);
+  s[1] = std::abs(s[1]);
+  s[3] = std::abs(s[3]);
+  if (!(s.head<5>().minCoeff() > 0.0) || std::abs(s[5]) > 1.0 ||
+      (fields.size() > 6 && !fields[6].empty()))
+    at.fail(
+        "*FAIL STRESS: expected Xt, Xc, Yt, Yc and S other than 0, a factor "
+        "from -1 to 1 or none, and no biaxial stress.");
+  s[5] *= 1.0 / std::sqrt(s[0] * s[1] * s[2] * s[3]);
 }
 
 /// Points on axis 1 and in the plane 1 2, and the origin; then the axis of a
@@ -180,9 +206,9 @@ PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
   } else if (m.kind.empty() || m.kind.starts_with("ISO")) {
     ply = make_isotropic(e[0], e[1], 0.0);
   } else if (m.kind == "LAMINA") {
-    ply = {e[0], e[1], e[2], e[3], e[4], e[5], 0.0};
+    ply = {e[0], e[1], e[2], e[3], e[4], e[5], 0.0, Vector6::Zero()};
   } else if (m.kind.starts_with("ENG") && e.size() == 16) {
-    ply = {e[0], e[1], e[3], e[6], e[7], e[8], 0.0};
+    ply = {e[0], e[1], e[3], e[6], e[7], e[8], 0.0, Vector6::Zero()};
   } else {
     throw InputError(fmt::format(
         "{}: *ELASTIC of type {} is not read for beams and shells. Expected "
@@ -199,6 +225,7 @@ PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
     throw InputError(
         fmt::format("{}: it has no *DENSITY > 0. Expected one.", m.place));
   ply.density = *m.density;
+  ply.strengths = m.strengths;
   return ply;
 }
 

@@ -55,6 +55,7 @@ class AbaqusSections {
     std::string kind;  ///< of *ELASTIC
     std::vector<double> elastic;
     std::optional<double> density;
+    Vector6 strengths = Vector6::Zero();  ///< as PlyMaterial
   };
 
   struct Orientation {
@@ -65,6 +66,8 @@ class AbaqusSections {
 
   void begin_section(const DeckPlace& at, const Keyword& keyword,
                      const Pose& pose);
+  void add_strengths(const DeckPlace& at,
+                     const std::vector<std::string_view>& fields);
   void add_orientation(const DeckPlace& at, std::string_view line);
   /// @param section whose materials are there
   [[nodiscard]] bool has_directions(const AbaqusSection& section) const;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -17,7 +16,8 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/structural/draw_structure.hpp"
 #include "limber/fem/structural/node_motions.hpp"
-#include "limber/fem/structural/shell_element.hpp"
+#include "limber/fem/structural/place_element.hpp"
+#include "limber/fem/structural/recover_structure.hpp"
 
 namespace limber::fem {
 namespace {
@@ -30,25 +30,6 @@ struct PlacedElement {
   StructuralElement element;
   std::vector<int> nodes;
 };
-
-/// What `make` makes. @throws InputError with the place, where `make` has none
-StructuralElement make_at(const std::string& place,
-                          const std::function<StructuralElement()>& make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place, error.what()));
-  }
-}
-
-Vector3 find_axis(const StructureShell& shell, const Matrix3X& x) {
-  const Vector3 side = x.col(1) - x.col(0);
-  Vector3 axis = shell.axis.isZero(0.0) ? side : shell.axis;
-  if (shell.angle == 0.0) return axis;
-  const Vector3 n = side.cross(Vector3(x.col(x.cols() - 1) - x.col(0)));
-  return exp_rotation(shell.angle * n.normalized()) *
-         Vector3(axis - n * n.dot(axis) / n.squaredNorm());
-}
 
 /// Mass points of a rigid body: three pairs along its principal axes.
 StructuralElement make_mass(const StructureMass& body) {
@@ -65,16 +46,18 @@ StructuralElement make_mass(const StructureMass& body) {
   }
   constexpr double kRoundoff = 1e-9;
   if (!(body.mass > 0.0))
-    throw InputError(
-        "it has moments of inertia and no mass. Expected a mass, too.");
+    throw InputError(fmt::format(
+        "{}: it has moments of inertia and no mass. Expected a mass, too.",
+        body.place));
   const Matrix3 S =
       0.5 * body.inertia.trace() * Matrix3::Identity() - body.inertia;
   const auto eigen = dense::find_eigenpairs(S);
   if (eigen.values.minCoeff() < -kRoundoff * body.inertia.trace())
-    throw InputError(
-        "its moments of inertia are those of no body: the largest is more "
+    throw InputError(fmt::format(
+        "{}: its moments of inertia are those of no body: the largest is more "
         "than the sum of the others. Expected I11, I21, I22, I31, I32, I33 "
-        "about its centre of mass.");
+        "about its centre of mass.",
+        body.place));
   for (int a = 0; a < 3; ++a) {
     const Vector3 d =
         std::sqrt(3.0 * std::max(eigen.values[a], 0.0) / body.mass) *
@@ -106,44 +89,24 @@ class StructureAssembler {
     sum_matrices();
     check_connected_nodes();
     take_sets();
-    draw_structure({structure_, solids_, motions_, places_, solid_nodes_, map_},
-                   model);
+    DrawnStructure drawn = draw_structure(
+        {structure_, solids_, motions_, places_, solid_nodes_, map_}, model);
+    model.recover_sections =
+        make_recovery(structure_, places_, map_, std::move(drawn));
     return std::move(result_);
   }
 
  private:
   void list_elements() {
-    for (const StructureBeam& beam : structure_.beams) {
-      const BeamProperty& property =
-          structure_.beam_properties[index(beam.property)];
-      elements_.push_back({make_at(beam.place,
-                                   [&] {
-                                     return make_beam(
-                                         {{structure_.x.col(beam.nodes[0]),
-                                           structure_.x.col(beam.nodes[1])},
-                                          beam.offsets,
-                                          beam.up},
-                                         property.section, property.material);
-                                   }),
+    for (const StructureBeam& beam : structure_.beams)
+      elements_.push_back({make_element(structure_, beam),
                            {beam.nodes.begin(), beam.nodes.end()}});
-    }
     for (const StructureShell& shell : structure_.shells) {
-      const Matrix3X x = structure_.x(Eigen::all, shell.nodes);
-      const Laminate laminate = shift_laminate(
-          structure_.laminates[index(shell.laminate)], shell.offset);
-      const ShellShape shape{x, find_axis(shell, x)};
-      elements_.push_back(
-          {make_at(shell.place,
-                   [&] {
-                     return shell.nodes.size() == 3
-                                ? make_triangle_shell(shape, laminate)
-                                : make_quad_shell(shape, laminate);
-                   }),
-           shell.nodes});
+      elements_.push_back({make_element(structure_, shell), shell.nodes});
+      elements_.back().element.strains.clear();
     }
     for (const StructureMass& mass : structure_.masses)
-      elements_.push_back(
-          {make_at(mass.place, [&] { return make_mass(mass); }), {mass.node}});
+      elements_.push_back({make_mass(mass), {mass.node}});
     for (PlacedElement& placed : elements_)
       for (MassPoint& point : placed.element.points) {
         point.mass *= structure_.mass_factor;

@@ -127,7 +127,8 @@ Matrix3 find_beam_axes(const BeamShape& shape) {
 
 StructuralElement make_beam(const BeamShape& shape, const BeamSection& given,
                             const BeamMaterial& material) {
-  Matrix3 axes = find_beam_axes(shape);
+  const Matrix3 given_axes = find_beam_axes(shape);
+  Matrix3 axes = given_axes;
   const BeamSection section = take_principal(given, axes);
   const double L =
       (shape.nodes[1] + shape.offsets[1] - shape.nodes[0] - shape.offsets[0])
@@ -155,11 +156,17 @@ StructuralElement make_beam(const BeamShape& shape, const BeamSection& given,
     T.block<3, 3>(at, at + 3) =
         -axes.transpose() * skew(shape.offsets[static_cast<std::size_t>(end)]);
   }
+  const Matrix12 forces =
+      make_stiffness(L, E * section.area,
+                     material.shear_modulus * section.torsion, planes) *
+      T;
   StructuralElement element;
-  element.K = T.transpose() *
-              make_stiffness(L, E * section.area,
-                             material.shear_modulus * section.torsion, planes) *
-              T;
+  element.K = T.transpose() * forces;
+  const Matrix3 turn = given_axes.transpose() * axes;
+  element.section_forces.resize(12, 12);
+  for (int row = 0; row < 12; row += 3)
+    element.section_forces.middleRows<3>(row) =
+        (row < 6 ? -1.0 : 1.0) * turn * forces.middleRows<3>(row);
 
   // Four points at each place have the section's second moments.
   const double solid = material.density * section.area;

@@ -25,6 +25,19 @@ double calc_rectangle_torsion(double height, double width) {
   return a * b * b * b * (1.0 / 3.0 - 64.0 * b / (std::pow(kPi, 5) * a) * sum);
 }
 
+/// W_t = It / (b (1 - 8 / pi^2 sum_odd 1 / (n^2 cosh(n pi a / 2b)))), in the
+/// middle of the longer side (Timoshenko and Goodier, Theory of Elasticity)
+double calc_rectangle_modulus(double height, double width) {
+  constexpr int kTerms = 60;
+  const double a = std::max(height, width);
+  const double b = std::min(height, width);
+  double sum = 0.0;
+  for (int n = 1; n < kTerms; n += 2)
+    sum += 1.0 / (n * n * std::cosh(0.5 * n * kPi * a / b));
+  return calc_rectangle_torsion(height, width) /
+         (b * (1.0 - 8.0 / (kPi * kPi) * sum));
+}
+
 /// Shear along the webs of thin-walled sections: @param m area of the flanges
 /// to that of the webs @param n width to height @param rest terms of the kind
 double calc_thin_shear(double m, double nu, double rest) {
@@ -60,6 +73,7 @@ BeamSection make_tube(double outer, double inner, double nu) {
   section.area = kPi * (a2 - b2);
   section.I_y = section.I_z = 0.25 * kPi * (a2 * a2 - b2 * b2);
   section.torsion = 2.0 * section.I_y;
+  section.torsion_modulus = section.torsion / outer;
   section.shear_y = section.shear_z =
       6.0 * (1.0 + nu) * s /
       ((7.0 + 6.0 * nu) * s + (20.0 + 12.0 * nu) * m * m);
@@ -74,6 +88,7 @@ BeamSection make_rectangle(double height, double width, double nu) {
   section.I_z = calc_square(height, width);
   section.I_y = calc_square(width, height);
   section.torsion = calc_rectangle_torsion(height, width);
+  section.torsion_modulus = calc_rectangle_modulus(height, width);
   section.shear_y = section.shear_z = calc_rectangle_shear(nu);
   section.half_height = 0.5 * height;
   section.half_width = 0.5 * width;
@@ -91,6 +106,7 @@ BeamSection make_box(double height, double width, double top, double side,
   const double enclosed = (height - top) * (width - side);
   section.torsion = 4.0 * enclosed * enclosed /
                     (2.0 * (width - side) / top + 2.0 * (height - top) / side);
+  section.torsion_modulus = 2.0 * enclosed * std::min(top, side);
   section.shear_y = calc_box_shear(height, width, side, top, nu);
   section.shear_z = calc_box_shear(width, height, top, side, nu);
   section.half_height = 0.5 * height;
@@ -110,6 +126,7 @@ BeamSection make_i_section(double height, double width, double flange,
   section.I_y = 2.0 * calc_square(width, flange) + calc_square(web, inner);
   section.torsion =
       (2.0 * width * std::pow(flange, 3) + inner * std::pow(web, 3)) / 3.0;
+  section.torsion_modulus = section.torsion / std::max(flange, web);
   section.shear_y = calc_thin_shear(
       m, nu,
       30.0 * n * n * (m + m * m) + 5.0 * nu * n * n * (8.0 * m + 9.0 * m * m));

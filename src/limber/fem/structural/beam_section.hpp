@@ -11,6 +11,9 @@ struct BeamSection {
   double I_z = 0.0;   ///< int y^2 dA > 0, bending in the plane x y [length^4]
   double I_yz = 0.0;  ///< int y z dA [length^4]
   double torsion = 0.0;  ///< It > 0, without warping [length^4]
+  /// W_t: torsional moment over its largest shear stress; 0: not known, of
+  /// sections without dimensions [length^3].
+  double torsion_modulus = 0.0;
   /// Shear factors: the shear force along y is shear_y G A gamma; 0: no shear
   /// flexibility (Euler and Bernoulli) [-].
   double shear_y = 0.0;

@@ -15,15 +15,7 @@
 namespace limber::fem {
 namespace {
 
-/// A node of a shell as its faces have it: elements around it whose normals
-/// differ little share one, others beyond a fold have their own.
-struct FaceNode {
-  Vector3 normal;  ///< of the first element
-  Vector3 sum;     ///< of all
-  double bottom;
-  double top;
-  std::array<int, 2> drawn;  ///< nodes of the model below and above
-};
+constexpr double kFold = 0.866;  // cos 30 degrees
 
 using Side = ModelSkin::Side;
 
@@ -32,7 +24,7 @@ class StructureDrawer {
   StructureDrawer(const PlacedStructure& placed, MatrixModel& model)
       : placed_(placed), structure_(placed.structure), model_(model) {}
 
-  void draw() {
+  DrawnStructure draw() {
     next_tag_ = find_first_tag();
     for (int n = 0; n < static_cast<int>(model_.tags.size()); ++n)
       model_.skin.bases.push_back(n);
@@ -43,6 +35,7 @@ class StructureDrawer {
     draw_solids();
     fill_skin();
     finish();
+    return std::move(drawn_);
   }
 
  private:
@@ -96,23 +89,20 @@ class StructureDrawer {
   // ---- shells
   int find_face_node(int node, const Vector3& normal, double bottom,
                      double top) {
-    constexpr double kFold = 0.866;  // cos 30 degrees
     for (const int i : faces_of_[node]) {
-      FaceNode& face = face_nodes_[index(i)];
+      FaceNode& face = drawn_.faces[index(i)];
       if (face.normal.dot(normal) < kFold || face.bottom != bottom ||
           face.top != top)
         continue;
       face.sum += normal;
       return i;
     }
-    faces_of_[node].push_back(static_cast<int>(face_nodes_.size()));
-    face_nodes_.push_back({normal, normal, bottom, top, {-1, -1}});
-    base_.push_back(node);
-    return static_cast<int>(face_nodes_.size()) - 1;
+    faces_of_[node].push_back(static_cast<int>(drawn_.faces.size()));
+    drawn_.faces.push_back({node, normal, normal, bottom, top, {-1, -1}});
+    return static_cast<int>(drawn_.faces.size()) - 1;
   }
 
   void draw_shells() {
-    std::vector<std::vector<int>> polygons;
     std::map<std::pair<int, int>, int> sides;
     for (const StructureShell& shell : structure_.shells) {
       const Laminate& laminate = structure_.laminates[index(shell.laminate)];
@@ -129,17 +119,16 @@ class StructureDrawer {
                                          laminate.top + shell.offset));
       for (std::size_t i = 0; i < polygon.size(); ++i)
         ++sides[{polygon[i], polygon[(i + 1) % polygon.size()]}];
-      polygons.push_back(std::move(polygon));
+      drawn_.corners.push_back(std::move(polygon));
     }
-    for (std::size_t i = 0; i < face_nodes_.size(); ++i) {
-      FaceNode& face = face_nodes_[i];
+    for (FaceNode& face : drawn_.faces) {
       const Vector3 n = face.sum.normalized();
-      face.drawn = {add_node(base_[i], face.bottom * n, Side::bottom),
-                    add_node(base_[i], face.top * n, Side::top)};
+      face.drawn = {add_node(face.node, face.bottom * n, Side::bottom),
+                    add_node(face.node, face.top * n, Side::top)};
     }
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-      draw_shell(polygons[i], sides);
-      fill_shell(polygons[i], structure_.shells[i].laminate);
+    for (std::size_t i = 0; i < drawn_.corners.size(); ++i) {
+      draw_shell(drawn_.corners[i], sides);
+      fill_shell(drawn_.corners[i], structure_.shells[i].laminate);
     }
   }
 
@@ -147,7 +136,7 @@ class StructureDrawer {
     std::vector<int> nodes;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
       for (const int face : polygon)
-        nodes.push_back(face_nodes_[index(face)].drawn[side]);
+        nodes.push_back(drawn_.faces[index(face)].drawn[side]);
     add_cell(nodes, laminate);
   }
 
@@ -162,7 +151,7 @@ class StructureDrawer {
   void draw_shell(const std::vector<int>& polygon,
                   const std::map<std::pair<int, int>, int>& sides) {
     const auto drawn = [&](std::size_t i, std::size_t side) {
-      return face_nodes_[index(polygon[i % polygon.size()])].drawn[side];
+      return drawn_.faces[index(polygon[i % polygon.size()])].drawn[side];
     };
     model_.triangles.push_back({drawn(0, 1), drawn(1, 1), drawn(2, 1)});
     model_.triangles.push_back({drawn(0, 0), drawn(2, 0), drawn(1, 0)});
@@ -182,24 +171,6 @@ class StructureDrawer {
   }
 
   // ---- beams
-  [[nodiscard]] static std::vector<std::array<double, 2>> list_outline(
-      const BeamSection& section) {
-    double y = section.half_height;
-    double z = section.half_width;
-    if (!(y > 0.0 && z > 0.0)) {  // a rectangle of these moments
-      y = std::sqrt(3.0 * section.I_z / section.area);
-      z = std::sqrt(3.0 * section.I_y / section.area);
-    }
-    if (!section.is_round) return {{-y, -z}, {y, -z}, {y, z}, {-y, z}};
-    constexpr int kCorners = 12;
-    std::vector<std::array<double, 2>> outline;
-    for (int i = 0; i < kCorners; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / kCorners;
-      outline.push_back({y * std::cos(angle), z * std::sin(angle)});
-    }
-    return outline;
-  }
-
   void draw_beam(const StructureBeam& beam) {
     const Matrix3 axes = find_beam_axes(
         {{structure_.x.col(beam.nodes[0]), structure_.x.col(beam.nodes[1])},
@@ -223,6 +194,7 @@ class StructureDrawer {
     }
     fill_beam(rings,
               static_cast<int>(structure_.laminates.size()) + beam.property);
+    drawn_.outlines.push_back(std::move(rings));
   }
 
   void fill_beam(const std::array<std::vector<int>, 2>& rings, int region) {
@@ -298,16 +270,33 @@ class StructureDrawer {
   std::size_t next_tag_ = 1;
   std::vector<Vector3> points_;
   std::vector<Eigen::Triplet<double>> entries_;
-  std::vector<FaceNode> face_nodes_;
-  std::vector<int> base_;              // nodes of face_nodes_
+  DrawnStructure drawn_;
   std::array<ElementBlock, 2> cells_;  // wedges and hexahedra
   std::map<int, std::vector<int>> faces_of_;
 };
 
 }  // namespace
 
-void draw_structure(const PlacedStructure& placed, MatrixModel& model) {
-  StructureDrawer(placed, model).draw();
+std::vector<std::array<double, 2>> list_outline(const BeamSection& section) {
+  double y = section.half_height;
+  double z = section.half_width;
+  if (!(y > 0.0 && z > 0.0)) {  // a rectangle of these moments
+    y = std::sqrt(3.0 * section.I_z / section.area);
+    z = std::sqrt(3.0 * section.I_y / section.area);
+  }
+  if (!section.is_round) return {{-y, -z}, {y, -z}, {y, z}, {-y, z}};
+  constexpr int kCorners = 12;
+  std::vector<std::array<double, 2>> outline;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    outline.push_back({y * std::cos(angle), z * std::sin(angle)});
+  }
+  return outline;
+}
+
+DrawnStructure draw_structure(const PlacedStructure& placed,
+                              MatrixModel& model) {
+  return StructureDrawer(placed, model).draw();
 }
 
 }  // namespace limber::fem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <array>
 #include <vector>
 
 #include "limber/fem/structural/node_motions.hpp"
@@ -22,11 +23,36 @@ struct PlacedStructure {
   const NodeMap& map;
 };
 
+/// A node of a shell as its faces have it: elements around it whose normals
+/// differ by at most 30 degrees share one, others beyond a fold have their own.
+struct FaceNode {
+  int node = -1;   ///< of the structure
+  Vector3 normal;  ///< of the first element
+  Vector3 sum;     ///< of the normals of all
+  double bottom = 0.0;
+  double top = 0.0;
+  std::array<int, 2> drawn = {-1, -1};  ///< nodes of the model below and above
+};
+
+/// What was drawn.
+struct DrawnStructure {
+  std::vector<FaceNode> faces;
+  std::vector<std::vector<int>> corners;  ///< of each shell: indices of faces
+  /// Of each beam, at both ends: nodes of the model, in list_outline()'s order.
+  std::vector<std::array<std::vector<int>, 2>> outlines;
+};
+
+/// Points y, z of the outline, counterclockwise about x; of a section without
+/// dimensions those of the rectangle of its moments.
+[[nodiscard]] std::vector<std::array<double, 2>> list_outline(
+    const BeamSection& section);
+
 /// Adds condensed nodes on the faces of shells and the outlines of beams, which
 /// move with their nodes as rigid arms, with the triangles of the closed
 /// surface between them, and those of the solids' surface; the skin, of the
 /// solids that these nodes make; and the condensed rows of nodes that others
 /// lead.
-void draw_structure(const PlacedStructure& placed, MatrixModel& model);
+DrawnStructure draw_structure(const PlacedStructure& placed,
+                              MatrixModel& model);
 
 }  // namespace limber::fem

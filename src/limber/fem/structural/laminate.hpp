@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "limber/common/material/section_place.hpp"
 #include "limber/common/types.hpp"
 
 namespace limber::fem {
@@ -19,6 +20,9 @@ struct PlyMaterial {
   double G_13 = 0.0;     ///< > 0
   double G_23 = 0.0;     ///< > 0
   double density = 0.0;  ///< >= 0
+  /// Strengths Xt, Xc, Yt, Yc, S > 0 along 1, along 2 and in shear, and F12 of
+  /// Tsai and Wu; zeros: not known.
+  Vector6 strengths = Vector6::Zero();
 };
 
 /// The same in all directions.
@@ -28,6 +32,18 @@ struct Ply {
   PlyMaterial material;
   double thickness = 0.0;  ///< > 0
   double angle = 0.0;      ///< from the shell's axis 1 to the fibre [rad]
+};
+
+/// Stress at a place through the thickness, in the shell's axes: [11, 22, 12] =
+/// membrane e + bending k, [13, 23] = shear * Q by components.
+struct LaminatePoint {
+  SectionFace face = SectionFace::middle;
+  int ply = 0;         ///< from 1 at the bottom; 0: the only one
+  double angle = 0.0;  ///< from axis 1 to the fibre [rad]
+  Matrix3 membrane = Matrix3::Zero();
+  Matrix3 bending = Matrix3::Zero();
+  Eigen::Vector2d shear = Eigen::Vector2d::Zero();  ///< per shear force
+  Vector6 strengths = Vector6::Zero();              ///< as PlyMaterial
 };
 
 /// A shell's section in its axes 1, 2: forces and moments per length of strains
@@ -43,6 +59,8 @@ struct Laminate {
   double bottom = 0.0;          ///< z of its lower face
   double top = 0.0;             ///< z of its upper face
   PlyMaterial outer = {};       ///< of the upper face, for contact
+  /// Bottom, middle and top of one ply; bottom and top of each of several.
+  std::vector<LaminatePoint> points;
 };
 
 /// Plies from bottom to top, the lowest beginning at z = bottom.

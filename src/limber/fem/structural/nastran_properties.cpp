@@ -79,10 +79,33 @@ void NastranProperties::add_isotropic(const BulkCard& card) {
           "is there twice. Expected a number of its own among materials.");
 }
 
+/// Xt, Xc, Yt, Yc, S, with Xc = Xt and Yc = Yt if blank, and F12.
+Vector6 NastranProperties::find_strengths(const BulkCard& card) {
+  Vector6 strengths = Vector6::Zero();
+  for (std::size_t i = 0; i < 5; ++i)
+    strengths[static_cast<Eigen::Index>(i)] = real(card, 11 + i);
+  if (card.field(12).empty()) strengths[1] = strengths[0];
+  if (card.field(14).empty()) strengths[3] = strengths[2];
+  if (strengths.isZero(0.0)) return strengths;
+  if (!require(card.field(18).empty() || real(card, 18) == 0.0, card,
+               "its strengths are strains (STRN). Expected stresses.") ||
+      !require(strengths.head<5>().minCoeff() > 0.0, card,
+               "some of Xt, Xc, Yt, Yc, S are missing or not > 0. Expected "
+               "all of them, or none."))
+    return Vector6::Zero();
+  strengths[5] = real(card, 17);
+  const double product = strengths.head<4>().prod();
+  if (!require(strengths[5] * strengths[5] * product < 1.0, card,
+               "F12 is out of range. Expected F12^2 < 1 / (Xt Xc Yt Yc)."))
+    return Vector6::Zero();
+  return strengths;
+}
+
 void NastranProperties::add_ply_material(const BulkCard& card) {
   const std::optional<int> id = card.integer(0, std::nullopt, *problems_);
-  PlyMaterial m{real(card, 1), real(card, 2), real(card, 3), real(card, 4),
-                real(card, 5), real(card, 6), real(card, 7)};
+  PlyMaterial m{real(card, 1), real(card, 2),       real(card, 3),
+                real(card, 4), real(card, 5),       real(card, 6),
+                real(card, 7), find_strengths(card)};
   if (!id) return;
   if (m.G_13 == 0.0 || m.G_23 == 0.0)
     notices_.push_back(
@@ -126,7 +149,7 @@ std::optional<PlyMaterial> NastranProperties::find_ply_material(
                            id)))
     return std::nullopt;
   const Isotropic& m = found->second;
-  return PlyMaterial{m.E, m.E, m.nu, m.G, m.G, m.G, m.density};
+  return PlyMaterial{m.E, m.E, m.nu, m.G, m.G, m.G, m.density, Vector6::Zero()};
 }
 
 // ---- beams
@@ -315,8 +338,7 @@ std::optional<Laminate> NastranProperties::make_plate(const BulkCard& card) {
   };
   const std::optional<PlyMaterial> membrane = find(1);
   const std::optional<PlyMaterial> bending = find(3);
-  std::optional<PlyMaterial> shear = bending;
-  if (!card.field(5).empty()) shear = find(5);
+  const std::optional<PlyMaterial> shear = find(card.field(5).empty() ? 3 : 5);
   if (!membrane || !bending || !shear) return std::nullopt;
   const double ratio = card.field(4).empty() ? 1.0 : real(card, 4);
   const double factor = card.field(6).empty() ? 5.0 / 6.0 : real(card, 6);
@@ -325,7 +347,10 @@ std::optional<Laminate> NastranProperties::make_plate(const BulkCard& card) {
                "0."))
     return std::nullopt;
   Laminate laminate = make_laminate({{*membrane, t, 0.0}}, -0.5 * t);
-  laminate.D = ratio * make_laminate({{*bending, t, 0.0}}, -0.5 * t).D;
+  const Laminate plate = make_laminate({{*bending, t, 0.0}}, -0.5 * t);
+  laminate.D = ratio * plate.D;
+  for (std::size_t i = 0; i < plate.points.size(); ++i)
+    laminate.points[i].bending = plate.points[i].bending;
   laminate.S = factor * 1.2 * make_laminate({{*shear, t, 0.0}}, -0.5 * t).S;
   if (card.field(5).empty()) laminate.S *= kRigidShear;
   laminate.mass += real(card, 7);

@@ -39,6 +39,7 @@ class NastranProperties {
 
   void add_isotropic(const BulkCard& card);
   void add_ply_material(const BulkCard& card);
+  Vector6 find_strengths(const BulkCard& card);
   std::optional<Isotropic> find_isotropic(const BulkCard& card,
                                           std::size_t field);
   std::optional<PlyMaterial> find_ply_material(const BulkCard& card, int id);

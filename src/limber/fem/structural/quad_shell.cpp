@@ -84,20 +84,39 @@ class QuadMaker {
   StructuralElement make() {
     const double g = 1.0 / std::sqrt(3.0);
     StructuralElement element;
-    for (const double r : {-g, g})
-      for (const double s : {-g, g}) {
-        const SurfacePoint at = find_point(shape_, r, s);
-        add_stiffness(at, r, s);
+    for (const double s : {-1.0, 1.0})
+      for (const double r : {s, -s}) {  // in the order of the nodes
+        const SurfacePoint at = find_point(shape_, g * r, g * s);
+        add_stiffness(at, g * r, g * s);
         add_drilling(at, at.area);
         add_shell_mass(at.N, normals_, at.area, laminate_, element);
       }
     add_drilling(middle_, 4.0 * middle_.area);
-    K_ -= K_qa_ * K_aa_.inverse() * K_qa_.transpose();
+    const Eigen::Matrix<double, 4, 24> alpha =
+        -K_aa_.inverse() * K_qa_.transpose();
+    K_ += K_qa_ * alpha;
     element.K = K_;
+    add_strains(alpha, element);
     return element;
   }
 
  private:
+  /// Extrapolated from the points of integration, bilinear.
+  void add_strains(const Eigen::Matrix<double, 4, 24>& alpha,
+                   StructuralElement& element) {
+    for (std::size_t q = 0; q < strains_.size(); ++q)
+      strains_[q].topRows<3>() += enhanced_[q] * alpha;
+    for (int i = 0; i < 4; ++i) {
+      MatrixX at_node = MatrixX::Zero(8, 24);
+      for (int q = 0; q < 4; ++q)
+        at_node += 0.25 * (1.0 + std::sqrt(3.0) * kR[i] * kR[q]) *
+                   (1.0 + std::sqrt(3.0) * kS[i] * kS[q]) *
+                   strains_[static_cast<std::size_t>(q)];
+      element.strains.push_back(std::move(at_node));
+      element.axes.push_back(find_point(shape_, kR[i], kS[i]).axes);
+    }
+  }
+
   /// Of the surface at each node.
   void set_normals() {
     constexpr double kLeast = 1e-6;  // of the middle's
@@ -184,6 +203,10 @@ class QuadMaker {
         middle_.area / at.area * turn_strain(middle_.J_inv) * shapes;
     K_aa_ += at.area * E.transpose() * laminate_.A * E;
     K_qa_ += at.area * force.transpose() * E;
+
+    strains_.emplace_back(8, 24);
+    strains_.back() << membrane, bending, shear;
+    enhanced_.push_back(E);
   }
 
   void add_drilling(const SurfacePoint& at, double area) {
@@ -204,6 +227,8 @@ class QuadMaker {
   SurfacePoint middle_;
   std::array<Row, 2> shear_r_;
   std::array<Row, 2> shear_s_;
+  std::vector<MatrixX> strains_;  // at the points of integration
+  std::vector<Enhanced> enhanced_;
   Square K_ = Square::Zero();
   Eigen::Matrix4d K_aa_ = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 24, 4> K_qa_ = Eigen::Matrix<double, 24, 4>::Zero();

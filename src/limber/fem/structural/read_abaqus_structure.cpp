@@ -253,7 +253,8 @@ class StructureDeckReader {
                                     property,
                                     AbaqusSections::find_beam_axis(section),
                                     {Vector3::Zero(), Vector3::Zero()},
-                                    element.place});
+                                    element.place,
+                                    static_cast<std::size_t>(number)});
       } else {
         StructureShell shell;
         shell.nodes = element.nodes;

@@ -215,6 +215,7 @@ class StructureReader {
 
   void add_beam(const BulkCard& card) {
     if (!take_number(card)) return;
+    const std::optional<int> number = card.integer(0, std::nullopt, problems_);
     const std::optional<int> id =
         card.integer(1, card.integer(0, std::nullopt, problems_), problems_);
     const std::optional<int> a = nodes_.find(card, 2);
@@ -239,7 +240,8 @@ class StructureReader {
                                 *property,
                                 *up,
                                 {*from_a, *from_b},
-                                deck_.place_of(*card.line)});
+                                deck_.place_of(*card.line),
+                                static_cast<std::size_t>(*number)});
     add_to_set(std::to_string(*id), {*a, *b});
   }
 

@@ -26,6 +26,7 @@ struct StructureBeam {
   Vector3 up = Vector3::Zero();  ///< as BeamShape
   std::array<Vector3, 2> offsets = {Vector3::Zero(), Vector3::Zero()};
   std::string place;
+  std::size_t tag = 0;  ///< its number in the deck
 };
 
 struct StructureShell {

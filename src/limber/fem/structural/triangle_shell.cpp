@@ -230,6 +230,15 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
   for (int i = 0; i < 6; ++i) turn.block<3, 3>(3 * i, 3 * i) = axes.transpose();
   StructuralElement element;
   element.K = turn.transpose() * K * turn;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 N = Vector3::Unit(i);
+    MatrixX strains = MatrixX::Zero(8, 18);
+    strains.topRows<3>()(Eigen::all, kInPlane) = membrane;
+    strains.middleRows<3>(3)(Eigen::all, kOutOfPlane) = plate.make_curvature(N);
+    strains.bottomRows<2>()(Eigen::all, kOutOfPlane) = plate.make_shear(N);
+    element.strains.emplace_back(strains * turn);
+    element.axes.push_back(axes);
+  }
   const Matrix3X normals = axes.col(2).replicate<1, 3>();
   for (const Vector3& N : kInside)
     add_shell_mass(N, normals, t.area / 3.0, laminate, element);

@@ -100,12 +100,29 @@ Matrix6X solve_static(const Structure& structure, const Matrix6X& forces,
   return moved.reshaped(6, forces.cols());
 }
 
+SectionStress recover(const Structure& structure, const Matrix6X& u) {
+  return assemble_structure(structure).model.recover_sections(
+      VectorX(u.reshaped()));
+}
+
+Vector6 find_stress(const Structure& structure, const Matrix6X& u, int node,
+                    SectionFace face, int ply) {
+  const SectionStress stress = recover(structure, u);
+  for (std::size_t p = 0; p < stress.points.size(); ++p) {
+    const StressPoint& point = stress.points[p];
+    if (point.node == node && point.face == face && point.ply == ply)
+      return stress.stress.col(0).segment<6>(6 * static_cast<Eigen::Index>(p));
+  }
+  return Vector6::Constant(std::nan(""));
+}
+
 VectorX find_frequencies(const Structure& structure, int count,
-                         const IsHeld& is_held) {
+                         const IsHeld& is_held, double shift) {
   const AssembledStructure assembled = assemble_structure(structure);
   const std::vector<int> rows = find_free(assembled.model, is_held);
-  const Sparse K = restrict_rows(assembled.model.stiffness.entries, rows);
   const Sparse M = restrict_rows(assembled.model.mass.entries, rows);
+  const Sparse K =
+      restrict_rows(assembled.model.stiffness.entries, rows) + shift * M;
   const Factor factor(K);
   // Subspace iteration (Bathe, Finite Element Procedures, 11.6).
   constexpr int kIterations = 30;
@@ -118,8 +135,9 @@ VectorX find_frequencies(const Structure& structure, int count,
                                    MatrixX(W.transpose() * (K * W)));
     V = W * pairs.vectors;
   }
-  return pairs.values.tail(count).reverse().cwiseInverse().cwiseSqrt() /
-         (2.0 * M_PI);
+  const VectorX lambda =
+      pairs.values.tail(count).reverse().cwiseInverse().array() - shift;
+  return lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * M_PI);
 }
 
 MatrixX make_rigid(const Matrix3X& x) {

@@ -42,9 +42,21 @@ using IsHeld = std::function<bool(const Vector3& x, int component)>;
                                     const Matrix6X& forces,
                                     const IsHeld& is_held);
 
-/// Lowest frequencies [Hz] of a structure that is held, ascending.
+/// Stress and section forces. @param u as solve_static
+[[nodiscard]] SectionStress recover(const Structure& structure,
+                                    const Matrix6X& u);
+
+/// Stress at a node [xx, yy, zz, xy, yz, xz], of the first such point.
+/// @param u as solve_static @param face on which @param ply as StressPoint
+[[nodiscard]] Vector6 find_stress(const Structure& structure, const Matrix6X& u,
+                                  int node, SectionFace face, int ply = 0);
+
+/// Lowest frequencies [Hz] of a structure, ascending, those of rigid motions
+/// first. @param shift > 0 where there are some, added to the eigenvalues of
+/// the problem that is solved [rad^2/s^2]
 [[nodiscard]] VectorX find_frequencies(const Structure& structure, int count,
-                                       const IsHeld& is_held);
+                                       const IsHeld& is_held,
+                                       double shift = 0.0);
 
 /// Unit translations and rotations of nodes, 6 n x 6.
 [[nodiscard]] MatrixX make_rigid(const Matrix3X& x);
