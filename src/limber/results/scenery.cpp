@@ -62,14 +62,19 @@ MatrixX take_nodes(const MatrixX& all, const std::vector<Eigen::Index>& rows) {
 }
 
 /// Stress per modal coordinate at the rows, 6n x m; at a border of materials
-/// that of the first.
+/// that of the first; zero where there is none, on beams without dimensions.
 MatrixX take_stress(const flexbody::StressModes& modes,
                     const std::vector<Eigen::Index>& rows, Eigen::Index m) {
-  MatrixX taken(6 * std::ssize(rows), m);
+  MatrixX taken = MatrixX::Zero(6 * std::ssize(rows), m);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto point = std::lower_bound(modes.rows.begin(), modes.rows.end(),
-                                        static_cast<std::size_t>(rows[i])) -
-                       modes.rows.begin();
+    const auto row = static_cast<std::size_t>(rows[i]);
+    const auto point =
+        std::lower_bound(modes.rows.begin(), modes.rows.end(), row) -
+        modes.rows.begin();
+    if (point == std::ssize(modes.rows) ||
+        modes.rows[static_cast<std::size_t>(point)] != row) {
+      continue;
+    }
     taken.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
         modes.Sigma_B.middleRows<6>(6 * point).leftCols(m);
   }

@@ -92,13 +92,19 @@ Json describe_surfaces(const flexbody::ReducedBody& body) {
 // Null without stress modes; the averaging's error is that of each mode.
 Json describe_stress(const flexbody::ReducedBody& body) {
   if (!body.stress) return nullptr;
+  Json json{{"points", body.stress->rows.size()},
+            {"materials", body.stress->constants.cols()}};
+  const flexbody::SectionModes& sections = body.stress->sections;
+  if (sections.exist()) {
+    json["beam_ends"] = sections.ends.size();
+    return json;
+  }
   const VectorX errors = body.stress->averaging.diagonal()
                              .cwiseQuotient(body.lambda)
                              .cwiseMax(0.0)
                              .cwiseSqrt();
-  return Json{{"points", body.stress->rows.size()},
-              {"materials", body.stress->constants.cols()},
-              {"averaging_error", to_json(errors)}};
+  json["averaging_error"] = to_json(errors);
+  return json;
 }
 
 Json describe_body(const std::filesystem::path& file) {

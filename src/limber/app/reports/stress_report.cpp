@@ -53,7 +53,9 @@ std::optional<double> find_error(const scene::BuiltScene& built,
                                  dynamics::BodyIndex b,
                                  const dynamics::SystemState& state) {
   const dynamics::BodyModel& body = built.model.bodies[index(b)];
-  if (body.full >= 0) return std::nullopt;
+  if (body.full >= 0 || body.reduced->stress->averaging.size() == 0) {
+    return std::nullopt;
+  }
   return flexbody::find_averaging_error(
       *body.reduced->stress, body.reduced->lambda,
       state.eta.segment(body.offset, body.modes));
@@ -80,6 +82,12 @@ std::optional<double> find_correction(const scene::BuiltScene& built,
          whole;
 }
 
+// "12", "12 top".
+std::string name_node(const StressPeak& peak) {
+  return peak.layer.empty() ? std::to_string(peak.node)
+                            : fmt::format("{} {}", peak.node, peak.layer);
+}
+
 }  // namespace
 
 std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
@@ -94,6 +102,7 @@ std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
     const dynamics::SystemState& near = find_nearest(history, peak.time);
     peaks.push_back({built.model.bodies[index(column.stress->body)].name,
                      peak.value, peak.time, column.stress->tags[index(place)],
+                     column.stress->layer_of(index(place)),
                      column.stress->p_L.col(place),
                      find_error(built, column.stress->body, near),
                      find_correction(built, *column.stress, place, near)});
@@ -114,15 +123,16 @@ dynamics::RunRecord record_state(const scene::BuiltScene& built,
   return record;
 }
 
-std::vector<std::optional<std::size_t>> find_peak_nodes(
+std::vector<std::optional<PeakNode>> find_peak_nodes(
     const scene::BuiltScene& built, const dynamics::RunRecord& record) {
-  std::vector<std::optional<std::size_t>> nodes(record.peaks.size());
+  std::vector<std::optional<PeakNode>> nodes(record.peaks.size());
   for (const Column& column : list_columns(built)) {
     if (column.index >= nodes.size()) continue;
     const int place = record.places[column.index];
     const std::vector<std::size_t>& tags = column.stress->tags;
     if (place >= 0 && tags.size() > 1) {
-      nodes[column.index] = tags[index(place)];
+      nodes[column.index] = {tags[index(place)],
+                             column.stress->layer_of(index(place))};
     }
   }
   return nodes;
@@ -131,26 +141,32 @@ std::vector<std::optional<std::size_t>> find_peak_nodes(
 Json to_json(const std::vector<StressPeak>& peaks) {
   Json json = Json::array();
   for (const StressPeak& peak : peaks) {
-    json.push_back(Json{{"link", peak.link},
-                        {"von_mises", peak.von_mises},
-                        {"time", peak.time},
-                        {"node", peak.node},
-                        {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
-                        {"averaging_error", or_null(peak.averaging_error)},
-                        {"correction_share", or_null(peak.correction_share)}});
+    json.push_back(
+        Json{{"link", peak.link},
+             {"von_mises", peak.von_mises},
+             {"time", peak.time},
+             {"node", peak.node},
+             {"layer", peak.layer.empty() ? Json(nullptr) : Json(peak.layer)},
+             {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
+             {"averaging_error", or_null(peak.averaging_error)},
+             {"correction_share", or_null(peak.correction_share)}});
   }
   return json;
 }
 
 std::string to_text(const std::vector<StressPeak>& peaks) {
   if (peaks.empty()) return "";
-  std::string text = fmt::format(
-      "{:<20} {:>14} {:>8} {:>30} {:>11} {:>10} {:>10}\n", "von Mises stress",
-      "largest [Pa]", "node", "at [m]", "time [s]", "averaging", "static");
+  std::size_t width = 8;
+  for (const StressPeak& peak : peaks)
+    width = std::max(width, name_node(peak).size());
+  std::string text =
+      fmt::format("{:<20} {:>14} {:>{}} {:>30} {:>11} {:>10} {:>10}\n",
+                  "von Mises stress", "largest [Pa]", "node", width, "at [m]",
+                  "time [s]", "averaging", "static");
   for (const StressPeak& peak : peaks) {
     text +=
-        fmt::format("{:<20} {:>14.6g} {:>8} {:>30} {:>11.6g} {:>10} {:>10}\n",
-                    peak.link, peak.von_mises, peak.node,
+        fmt::format("{:<20} {:>14.6g} {:>{}} {:>30} {:>11.6g} {:>10} {:>10}\n",
+                    peak.link, peak.von_mises, name_node(peak), width,
                     fmt::format("({:.4g}, {:.4g}, {:.4g})", peak.p_L.x(),
                                 peak.p_L.y(), peak.p_L.z()),
                     peak.time, to_percent(peak.averaging_error),

@@ -20,10 +20,11 @@ struct StressPeak {
   double von_mises = 0.0;         ///< [Pa]
   double time = 0.0;              ///< [s]
   std::size_t node = 0;           ///< Gmsh node tag
+  std::string layer;              ///< of a shell or beam (name_section_place)
   Vector3 p_L = Vector3::Zero();  ///< the node, undeformed, link frame [m]
   /// Error of the averaging over elements in the energy norm, at the output
   /// nearest to the peak (flexbody::find_averaging_error); none at level full
-  /// [-].
+  /// and of beams and shells [-].
   std::optional<double> averaging_error;
   /// At that node and time, von Mises stress of the static-deformation modes
   /// over that of all modes, which eigenmodes alone would lack; none if the
@@ -40,9 +41,15 @@ struct StressPeak {
 [[nodiscard]] dynamics::RunRecord record_state(
     const scene::BuiltScene& built, const dynamics::SystemState& state);
 
-/// The node where a column of a stress probe had its peak, one entry a column;
-/// nothing for other probes and for stress at a single node.
-[[nodiscard]] std::vector<std::optional<std::size_t>> find_peak_nodes(
+/// A node, and where in the section of a shell or beam there.
+struct PeakNode {
+  std::size_t tag = 0;
+  std::string layer;  ///< of solids empty
+};
+
+/// Where a column of a stress probe had its peak, one entry a column; nothing
+/// for other probes and for stress at a single point.
+[[nodiscard]] std::vector<std::optional<PeakNode>> find_peak_nodes(
     const scene::BuiltScene& built, const dynamics::RunRecord& record);
 
 [[nodiscard]] Json to_json(const std::vector<StressPeak>& peaks);

@@ -71,7 +71,10 @@ Json summarize_probes(const runs::Run& run) {
     if (!peaks.empty()) {
       probe["peak"] = peaks[i].value;
       probe["peak_time"] = peaks[i].time;
-      if (nodes[i]) probe["peak_node"] = *nodes[i];
+      if (nodes[i]) {
+        probe["peak_node"] = nodes[i]->tag;
+        if (!nodes[i]->layer.empty()) probe["peak_layer"] = nodes[i]->layer;
+      }
     }
     probe["unit"] = history.columns[i].unit;
     json[history.columns[i].name] = probe;

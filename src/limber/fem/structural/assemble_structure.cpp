@@ -91,8 +91,9 @@ class StructureAssembler {
     take_sets();
     DrawnStructure drawn = draw_structure(
         {structure_, solids_, motions_, places_, solid_nodes_, map_}, model);
-    model.recover_sections =
-        make_recovery(structure_, places_, map_, std::move(drawn));
+    if (solids_.mesh.blocks.empty())
+      model.recover_sections =
+          make_recovery(structure_, places_, map_, std::move(drawn));
     return std::move(result_);
   }
 

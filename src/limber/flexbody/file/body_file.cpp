@@ -62,7 +62,10 @@ std::optional<int> version_of(const std::string& seal) {
 
 // The oldest layout that has room for the body.
 int layout_of(const ReducedBody& body) {
-  if (body.stress) return kStressBodyFileVersion;
+  if (body.stress) {
+    return body.stress->sections.exist() ? kSectionBodyFileVersion
+                                         : kStressBodyFileVersion;
+  }
   if (body.manifold) return kManifoldBodyFileVersion;
   return body.contact_surfaces.empty() ? kBodyFileVersion
                                        : kContactBodyFileVersion;
@@ -241,7 +244,7 @@ void read_tables(const Reader& reader, StressTables stress, ReducedBody& body) {
   OtherTables has{version == kContactBodyFileVersion,
                   version == kManifoldBodyFileVersion};
   if (has.manifold) has.surfaces = has_surfaces(reader);
-  if (version == kStressBodyFileVersion) has = read_other_tables(reader);
+  if (version >= kStressBodyFileVersion) has = read_other_tables(reader);
   const Eigen::Index m = body.lambda.size();
   const Eigen::Index products = has.manifold ? count_products(reader, m) : 0;
   const Eigen::Index P_columns = body.integrals.P.cols();
@@ -253,8 +256,9 @@ void read_tables(const Reader& reader, StressTables stress, ReducedBody& body) {
     body.contact_surfaces = read_contact_surfaces(reader, m, products);
   }
   if (has.manifold) read_manifold(reader, body);
-  if (version == kStressBodyFileVersion && stress == StressTables::needed) {
-    read_stress_modes(reader, products, body);
+  if (version >= kStressBodyFileVersion && stress == StressTables::needed) {
+    read_stress_modes(reader, products, version == kSectionBodyFileVersion,
+                      body);
   }
 }
 
@@ -272,11 +276,11 @@ void check_seal(const std::filesystem::path& file) {
     throw problem(
         "is not a reduced body of this program's; make one of its mesh");
   }
-  if (*version < kBodyFileVersion || *version > kStressBodyFileVersion) {
+  if (*version < kBodyFileVersion || *version > kSectionBodyFileVersion) {
     throw problem(fmt::format(
         "has layout version {}; this program reads {} to {}. Make the reduced "
         "body anew",
-        *version, kBodyFileVersion, kStressBodyFileVersion));
+        *version, kBodyFileVersion, kSectionBodyFileVersion));
   }
   const auto read = [&](char* out, std::size_t size) {
     return in.read(out, size);

@@ -23,6 +23,9 @@ inline constexpr int kManifoldBodyFileVersion = 9;
 /// The same for a body with stress modes, with or without the others.
 inline constexpr int kStressBodyFileVersion = 10;
 
+/// The same for a body of beams and shells with stress modes.
+inline constexpr int kSectionBodyFileVersion = 11;
+
 /// Writes one self-describing HDF5 file (every dataset carries its unit and
 /// meaning), atomically: a concurrent reader finds the old file or the new one,
 /// and of several writers the last one wins. HDF5's user block, the first 512

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "limber/common/material/section_place.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -51,6 +55,16 @@ std::vector<std::size_t> read_points(const BodyFileReader& reader,
   return rows;
 }
 
+// Rows of the body, in order.
+std::vector<std::size_t> read_places(const BodyFileReader& reader,
+                                     std::size_t count) {
+  std::vector<std::size_t> rows = read_rows(reader, "stress/rows", count);
+  if (!std::is_sorted(rows.begin(), rows.end())) {
+    reader.fail("'stress/rows' is not in order");
+  }
+  return rows;
+}
+
 // `count` numbers below `limit`.
 std::vector<int> read_choices(const BodyFileReader& reader,
                               const std::string& name, std::size_t count,
@@ -65,6 +79,58 @@ std::vector<int> read_choices(const BodyFileReader& reader,
     choices.push_back(static_cast<int>(value));
   }
   return choices;
+}
+
+void write_sections(Hdf5File& out, const SectionModes& sections) {
+  const std::string at = "stress/sections/";
+  out.write(at + "nodes", to_int64(sections.nodes), "1",
+            "row of the node of each point");
+  out.write(at + "faces", to_int64(sections.faces), "1",
+            "0 bottom, 1 bottom of an inner ply, 2 middle, 3 top of an inner "
+            "ply, 4 top of a shell; 5 outline of a beam");
+  out.write(at + "plies", to_int64(sections.plies), "1",
+            "ply from the bottom, 0 of one alone; point on a beam's outline");
+  out.write(at + "axes", sections.axes, "1",
+            "axes 1, 2, 3 of each point in B, 9 x p");
+  out.write(at + "strengths", sections.strengths, "Pa, Pa^-2",
+            "Xt, Xc, Yt, Yc, S, F12, 6 x p; zeros: not known");
+  out.write(at + "counts",
+            to_int64(std::vector<std::size_t>{sections.left_out,
+                                              sections.bare_beams}),
+            "1", "points whose node is not kept, beams without points");
+  out.write(at + "elements", to_int64(sections.elements), "1",
+            "number of the beam of each end");
+  out.write(at + "ends", to_int64(sections.ends), "1",
+            "row of the node of each end");
+  out.write(at + "Force", sections.Force, "kg^1/2 s^-2, kg^1/2 m s^-2",
+            "section forces per modal coordinate, 6 rows an end: N, Vy, Vz, T, "
+            "My, Mz");
+}
+
+SectionModes read_sections(const BodyFileReader& reader, std::size_t points,
+                           const ReducedBody& body) {
+  const std::string at = "stress/sections/";
+  const std::size_t rows = body.rows.tags.size();
+  const auto p = static_cast<Eigen::Index>(points);
+  SectionModes sections;
+  sections.nodes = read_rows(reader, at + "nodes", rows);
+  if (sections.nodes.size() != points) {
+    reader.fail(fmt::format("'{}nodes' has {} entries; expected {}", at,
+                            sections.nodes.size(), points));
+  }
+  sections.faces = read_choices(reader, at + "faces", points, kSectionFaces);
+  sections.plies = read_choices(reader, at + "plies", points,
+                                std::numeric_limits<int>::max());
+  sections.axes = reader.matrix(at + "axes", 9, p);
+  sections.strengths = reader.matrix(at + "strengths", 6, p);
+  const auto counts = reader.sizes(at + "counts", 2);
+  sections.left_out = counts[0];
+  sections.bare_beams = counts[1];
+  sections.ends = read_rows(reader, at + "ends", rows);
+  const auto ends = std::ssize(sections.ends);
+  sections.elements = reader.sizes(at + "elements", ends);
+  sections.Force = reader.matrix(at + "Force", 6 * ends, body.lambda.size());
+  return sections;
 }
 
 }  // namespace
@@ -85,8 +151,12 @@ void write_stress_modes(Hdf5File& out, const ReducedBody& body) {
   out.write("stress/Sigma_B", modes.Sigma_B, "kg^1/2 m^-2 s^-2",
             "stress per modal coordinate, then per product of paired ones, "
             "6 rows a point: xx, yy, zz, xy, yz, xz");
-  out.write("stress/averaging", modes.averaging, "rad^2/s^2",
-            "compliance of (averaged - element's stress), m x m");
+  if (modes.sections.exist()) {
+    write_sections(out, modes.sections);
+  } else {
+    out.write("stress/averaging", modes.averaging, "rad^2/s^2",
+              "compliance of (averaged - element's stress), m x m");
+  }
   out.write("stress/constants", modes.constants, "Pa, 1",
             "Young's modulus, Poisson's ratio of each material");
   for (std::size_t i = 0; i < modes.interface_rows.size(); ++i) {
@@ -101,10 +171,11 @@ OtherTables read_other_tables(const BodyFileReader& reader) {
 }
 
 void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
-                       ReducedBody& body) {
+                       bool has_sections, ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
   StressModes modes;
-  modes.rows = read_points(reader, body.rows.tags.size());
+  modes.rows = has_sections ? read_places(reader, body.rows.tags.size())
+                            : read_points(reader, body.rows.tags.size());
   const std::size_t points = modes.rows.size();
   modes.constants =
       reader.matrix("stress/constants", 2,
@@ -119,7 +190,11 @@ void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
   }
   modes.Sigma_B =
       reader.matrix("stress/Sigma_B", 6 * std::ssize(modes.rows), columns);
-  modes.averaging = reader.matrix("stress/averaging", m, m);
+  if (has_sections) {
+    modes.sections = read_sections(reader, points, body);
+  } else {
+    modes.averaging = reader.matrix("stress/averaging", m, m);
+  }
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     modes.interface_rows.push_back(
         read_rows(reader, name_stress_rows(i), body.rows.tags.size()));

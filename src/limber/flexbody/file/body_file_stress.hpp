@@ -20,7 +20,8 @@ struct OtherTables {
 
 /// Reads the stress modes of a body whose rows and interfaces are read.
 /// @param products of paired modes, number
+/// @param has_sections whether the body is of beams and shells
 void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
-                       ReducedBody& body);
+                       bool has_sections, ReducedBody& body);
 
 }  // namespace limber::flexbody

@@ -35,10 +35,16 @@ constexpr auto fields_of(const QuadraticManifold*) {
                      "Theta_B [kg^-1 m^-1]");
 }
 
+constexpr auto fields_of(const SectionModes*) {
+  return list_fields("sections", "rows of nodes", "faces", "plies", "axes",
+                     "strengths [Pa]", "points left out", "bare beams", "beams",
+                     "rows of ends", "Force [kg^1/2 s^-2, kg^1/2 m s^-2]");
+}
+
 constexpr auto fields_of(const StressModes*) {
   return list_fields("stress", "rows", "materials", "on surface",
                      "Sigma_B [kg^1/2 m^-2 s^-2]", "averaging [rad^2/s^2]",
-                     "constants [Pa, -]", "rows of interfaces");
+                     "constants [Pa, -]", "rows of interfaces", "sections");
 }
 
 constexpr auto fields_of(const QuadraticFrame*) {

@@ -30,7 +30,9 @@ void keep_integrals(InertiaShapeIntegrals& integrals, std::size_t n) {
 
 void keep_stress(StressModes& stress, Eigen::Index n) {
   keep_columns(stress.Sigma_B, n);
-  stress.averaging = MatrixX(stress.averaging.topLeftCorner(n, n));
+  keep_columns(stress.sections.Force, n);
+  if (stress.averaging.size() > 0)
+    stress.averaging = MatrixX(stress.averaging.topLeftCorner(n, n));
 }
 
 }  // namespace

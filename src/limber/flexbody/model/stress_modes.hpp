@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/flexbody/model/section_modes.hpp"
 
 namespace limber::flexbody {
 
@@ -20,7 +21,8 @@ namespace limber::flexbody {
 /// Limits     small strain; lacks the stress of truncated modes
 struct StressModes {
   /// p: rows of the points, increasing. A node at a border of materials has a
-  /// point for each of them.
+  /// point for each of them. Of shells and beams those of the places that are
+  /// drawn on their faces, where these are kept, and of nodes.
   std::vector<std::size_t> rows;
   std::vector<int> materials;   ///< p: column of `constants`
   std::vector<int> on_surface;  ///< p: 1 on the body's boundary, else 0
@@ -29,13 +31,14 @@ struct StressModes {
   MatrixX Sigma_B;
   /// m x m: integral of (averaged - element's stress) C^-1 (the same), whose
   /// share of lambda is the square of the averaging's error in the energy norm
-  /// [@zienkiewicz1987] [rad^2/s^2].
+  /// [@zienkiewicz1987] [rad^2/s^2]. Of beams and shells none, 0 x 0.
   MatrixX averaging;
   /// 2 x materials: Young's modulus [Pa], Poisson's ratio; of anisotropic ones
   /// those of the mean over all directions.
   MatrixX constants;
   /// Rows of the nodes of each interface, in the body's order of interfaces.
   std::vector<std::vector<std::size_t>> interface_rows;
+  SectionModes sections;  ///< of beams and shells
 };
 
 /// Von Mises stress of components (xx, yy, zz, xy, yz, xz) [Pa].

@@ -92,6 +92,25 @@ void scale_lift(const VectorX& D, double unit, fem::SparseMatrix& lift) {
       it.valueRef() *= D[j] * (it.row() % 6 < 3 ? unit : 1.0);
 }
 
+/// Stress and section forces in SI by motions in SI.
+fem::RecoverSections scale_sections(const fem::RecoverSections& recover,
+                                    const VectorX& D, double unit) {
+  if (!recover) return {};
+  return [=](const MatrixX& motions) {
+    const double per_area = 1.0 / (unit * unit);
+    fem::SectionStress stress = recover(D.asDiagonal() * motions);
+    stress.stress *= per_area;
+    for (Eigen::Index i = 3; i < stress.forces.rows(); i += 6)
+      stress.forces.middleRows<3>(i) *= unit;
+    stress.constants.row(0) *= per_area;
+    for (fem::StressPoint& point : stress.points) {
+      point.strengths.head<5>() *= per_area;
+      point.strengths[5] /= per_area * per_area;
+    }
+    return stress;
+  };
+}
+
 /// Rows without an entry other than zero in either matrix.
 std::vector<int> find_null_rows(const MatrixSystem& system) {
   VectorX largest = VectorX::Zero(system.row_count());
@@ -207,6 +226,7 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
     scale(D, unit, system.moments[i]);
   }
   scale_lift(D, unit, system.lift);
+  system.recover_sections = scale_sections(model.recover_sections, D, unit);
   find_components(system);
   note_rows(system.null, "have neither stiffness nor mass and are left out",
             system);

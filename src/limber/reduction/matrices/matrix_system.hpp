@@ -48,6 +48,8 @@ struct MatrixSystem {
   std::size_t drawn = 0;      ///< of the nodes, for pictures only (MatrixModel)
   fem::ModelSkin skin;        ///< of structures
   bool is_structure = false;  ///< of a deck's elements (MatrixModel)
+  /// Of beams and shells [Pa, N, N m]; empty: not known.
+  fem::RecoverSections recover_sections;
   std::vector<std::string> found;    ///< a line for each file
   std::vector<std::string> notices;  ///< what was changed or questionable
 

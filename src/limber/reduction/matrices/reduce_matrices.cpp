@@ -13,6 +13,7 @@
 #include "limber/fem/structural/read_structure.hpp"
 #include "limber/reduction/matrices/matrix_inertia.hpp"
 #include "limber/reduction/matrices/matrix_interfaces.hpp"
+#include "limber/reduction/matrices/section_rows.hpp"
 #include "limber/reduction/modal/selection.hpp"
 #include "limber/reduction/modal/static_modes.hpp"
 
@@ -202,6 +203,9 @@ ReducedBody reduce_matrices(const Recipe& recipe,
   if (make_surfaces)
     body.contact_surfaces =
         make_surfaces(meshed, basis, fields, body.p_MoBcm_M);
+  if (recipe.stress)
+    body.stress = make_section_stress(
+        meshed, choose_nodes(system, recipe, meshed.interfaces), Phi);
   report(progress, "reduced", 1.0);
   return body;
 }

@@ -284,8 +284,8 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec,
   const int link = find_link(scene_.robot, spec.where.link);
   const dynamics::Fidelity level = scene_.scenario.level_of(spec.where.link);
   if (!has_stress(level)) throw InputError(explain_no_stress());
-  const StressPlace place = {find_place_interface(spec.where),
-                             spec.where.nodes};
+  const StressPlace place = {find_place_interface(spec.where), spec.where.nodes,
+                             spec.section};
   const std::span<const BodyPlan> pieces = sites_.pieces_of(link);
   int at = piece.value_or(0);
   if (!piece && pieces.size() > 1) {

@@ -133,10 +133,13 @@ class Outputs {
   }
 
   void add(const StressProbe& probe) {
-    if (probe.quantity != StressQuantity::stress || probe.tags.size() != 1) {
+    const bool is_linear = probe.quantity == StressQuantity::stress ||
+                           probe.quantity == StressQuantity::section_force;
+    if (!is_linear || probe.tags.size() != 1) {
       why_none_ =
           "of stress only the six components at one node are linear: quantity "
-          "'stress' of a probe at a node";
+          "'stress' of a probe at a node, of shells with a 'layer', or "
+          "'section_force' of one 'element'";
       return;
     }
     const dynamics::BodyModel& body = observed_.model.bodies[index(probe.body)];

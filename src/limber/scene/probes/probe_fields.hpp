@@ -40,8 +40,9 @@ constexpr auto fields_of(const ControllerProbe*) {
 
 constexpr auto fields_of(const StressProbe*) {
   return list_fields("stress", "quantity", "body", "of the whole link", "nodes",
-                     "places [m]", "Sigma_L [kg^1/2 m^-2 s^-2]", nullptr,
-                     "eigenmodes", nullptr, "axes of the link", nullptr);
+                     "layers", "places [m]", "Sigma_L [kg^1/2 m^-2 s^-2]",
+                     "strengths [Pa]", "axes of layers", nullptr, "eigenmodes",
+                     nullptr, "axes of the link", nullptr);
 }
 
 constexpr auto fields_of(const Probe*) {

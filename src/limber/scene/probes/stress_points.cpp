@@ -13,6 +13,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/material/section_place.hpp"
+#include "limber/scene/probes/section_points.hpp"
 
 namespace limber::scene {
 namespace {
@@ -64,8 +66,12 @@ std::set<std::size_t> select_rows(const ReducedBody& body,
 }
 
 std::set<std::size_t> find_rows(const ReducedBody& body,
+                                StressQuantity quantity,
                                 const StressPlace& place) {
-  if (place.interface.empty()) return find_surface(body);
+  if (place.interface.empty()) {
+    return body.stress->sections.exist() ? find_section_rows(body, quantity)
+                                         : find_surface(body);
+  }
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     if (body.interfaces[i].name != place.interface) continue;
     const auto& rows = body.stress->interface_rows[i];
@@ -111,6 +117,30 @@ Eigen::Index count_columns(const ReducedBody& body, Fidelity level) {
 Eigen::Index find_row_of(const flexbody::StressModes& modes,
                          Eigen::Index point) {
   return static_cast<Eigen::Index>(modes.rows[static_cast<std::size_t>(point)]);
+}
+
+// Of the node that a point belongs to.
+Eigen::Index find_node_row(const flexbody::StressModes& modes,
+                           Eigen::Index point) {
+  if (!modes.sections.exist()) return find_row_of(modes, point);
+  return static_cast<Eigen::Index>(
+      modes.sections.nodes[static_cast<std::size_t>(point)]);
+}
+
+std::vector<Eigen::Index> select_points(const flexbody::StressModes& modes,
+                                        const std::set<std::size_t>& rows) {
+  std::vector<Eigen::Index> points;
+  for (std::size_t i = 0; i < modes.rows.size(); ++i) {
+    if (rows.count(modes.rows[i]) > 0) {
+      points.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  return points;
+}
+
+bool is_in_layer_axes(StressQuantity quantity,
+                      const SectionSelection& section) {
+  return section.in_layer_axes || is_index(quantity);
 }
 
 }  // namespace
@@ -162,14 +192,18 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
                               Fidelity level, const StressPlace& place,
                               const Pose& X_BL) {
   require_stress(body, level);
-  const std::set<std::size_t> rows = find_rows(body, place);
   const flexbody::StressModes& modes = *body.stress;
-  std::vector<Eigen::Index> points;
-  for (std::size_t i = 0; i < modes.rows.size(); ++i) {
-    if (rows.count(modes.rows[i]) > 0) {
-      points.push_back(static_cast<Eigen::Index>(i));
-    }
+  const flexbody::SectionModes& sections = modes.sections;
+  if (!sections.exist()) refuse_sections(quantity, place.section);
+  const std::set<std::size_t> rows = find_rows(body, quantity, place);
+  if (quantity == StressQuantity::section_force) {
+    return make_section_force_probe(body, rows, place.section, X_BL);
   }
+  const std::vector<Eigen::Index> points =
+      sections.exist()
+          ? select_section_points(body, rows, quantity, place.section)
+          : select_points(modes, rows);
+  const bool is_in_layer = is_in_layer_axes(quantity, place.section);
   const auto count = static_cast<Eigen::Index>(points.size());
   const Pose X_LB = X_BL.inverse();
   Matrix3X p_L(3, count);
@@ -180,7 +214,8 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
     p_L.col(i) = X_LB * Vector3(body.rows.x_B.col(row));
     for (Eigen::Index k = 0; k < Sigma_L.cols(); ++k) {
       Sigma_L.block<6, 1>(6 * i, k) = flexbody::turn_stress(
-          modes.Sigma_B.block<6, 1>(6 * point, k), X_BL.R);
+          modes.Sigma_B.block<6, 1>(6 * point, k),
+          is_in_layer ? find_section_axes(sections, point) : X_BL.R);
     }
   }
   StressProbe probe;
@@ -189,10 +224,22 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
   const std::vector<int>& order = probe.clusters.order();
   probe.p_L = p_L(Eigen::all, order);
   probe.Sigma_L.resize(Sigma_L.rows(), Sigma_L.cols());
+  probe.in_layer_axes = is_in_layer;
+  if (is_index(quantity)) probe.strengths.resize(6, count);
   for (std::size_t i = 0; i < order.size(); ++i) {
     probe.Sigma_L.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
         Sigma_L.middleRows<6>(6 * Eigen::Index{order[i]});
-    const Eigen::Index row = find_row_of(modes, points[index(order[i])]);
+    const Eigen::Index point = points[index(order[i])];
+    const Eigen::Index row = find_node_row(modes, point);
+    if (sections.exist()) {
+      const auto at = static_cast<std::size_t>(point);
+      probe.layers.push_back(name_section_place(
+          static_cast<SectionFace>(sections.faces[at]), sections.plies[at]));
+    }
+    if (is_index(quantity)) {
+      probe.strengths.col(static_cast<Eigen::Index>(i)) =
+          sections.strengths.col(point);
+    }
     probe.tags.push_back(body.rows.tags[static_cast<std::size_t>(row)]);
   }
   return probe;
@@ -207,6 +254,7 @@ StressProbe make_full_stress_probe(StressQuantity quantity,
   StressProbe probe;
   probe.quantity = quantity;
   probe.R_BL = X_BL.R;
+  refuse_sections(quantity, place.section);
   probe.full = make_full_stress(full, {rows.begin(), rows.end()});
   LIMBER_EXPECT(probe.full != nullptr);
   const std::vector<int>& nodes = probe.full->nodes();

@@ -43,6 +43,7 @@ void require_stress(const flexbody::ReducedBody& body,
 struct StressPlace {
   std::string interface;                         ///< name, or empty
   std::optional<flexbody::NodeSelection> nodes;  ///< if it is not an interface
+  SectionSelection section;                      ///< of a beam or shell
 };
 
 /// Makes a probe, without a place for the whole surface.

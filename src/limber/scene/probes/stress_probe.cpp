@@ -34,6 +34,35 @@ void append_principal(const StressProbe& probe, const VectorX& all,
   values.push_back(largest);
 }
 
+// @param all stress at all points, in their axes, 6p
+void append_index(const StressProbe& probe, const VectorX& all,
+                  std::vector<double>& values) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(probe.tags.size()); ++i) {
+    const Vector6 s = all.segment<6>(6 * Eigen::Index{i});
+    const Vector6 strengths = probe.strengths.col(i);
+    const double value = probe.quantity == StressQuantity::tsai_wu
+                             ? flexbody::calc_tsai_wu(s, strengths)
+                             : flexbody::calc_maximum_stress(s, strengths);
+    if (value > largest) {
+      largest = value;
+      probe.scratch.place = i;
+    }
+  }
+  values.push_back(largest);
+}
+
+// Of several ends each component of the largest magnitude.
+void append_section_forces(const VectorX& all, std::vector<double>& values) {
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    double largest = all[k];
+    for (Eigen::Index i = k; i < all.size(); i += 6) {
+      if (std::abs(all[i]) > std::abs(largest)) largest = all[i];
+    }
+    values.push_back(largest);
+  }
+}
+
 // Stress at all points, in the present axes of the link.
 void calc_full(const StressProbe& probe, const dynamics::SystemModel& model,
                const dynamics::BodyModel& body,
@@ -84,7 +113,28 @@ std::vector<ProbeColumnName> column_names(const StressProbe& probe,
   if (probe.quantity == StressQuantity::max_principal) {
     return {{name + ".max_principal", "Pa"}};
   }
+  if (probe.quantity == StressQuantity::tsai_wu) {
+    return {{name + ".tsai_wu", "1"}};
+  }
+  if (probe.quantity == StressQuantity::maximum_stress) {
+    return {{name + ".maximum_stress", "1"}};
+  }
   std::vector<ProbeColumnName> columns;
+  if (probe.quantity == StressQuantity::section_force) {
+    for (const char* force : {"N", "Vy", "Vz"}) {
+      columns.push_back({name + "." + force, "N"});
+    }
+    for (const char* moment : {"T", "My", "Mz"}) {
+      columns.push_back({name + "." + moment, "N m"});
+    }
+    return columns;
+  }
+  if (probe.in_layer_axes) {
+    for (const char* component : {"11", "22", "33", "12", "23", "13"}) {
+      columns.push_back({name + ".s" + component, "Pa"});
+    }
+    return columns;
+  }
   for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"}) {
     columns.push_back({name + ".s" + component, "Pa"});
   }
@@ -96,6 +146,8 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
                    std::vector<double>& values) {
   const dynamics::BodyModel& body = model.bodies[index(probe.body)];
   const bool is_principal = probe.quantity == StressQuantity::max_principal;
+  const bool needs_all = is_principal || is_index(probe.quantity) ||
+                         probe.quantity == StressQuantity::section_force;
   VectorX& all = probe.scratch.stress;
   if (probe.full) {
     LIMBER_EXPECT(body.full >= 0);
@@ -105,7 +157,7 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
     VectorX& at = probe.scratch.coordinates;
     calc_stress_coordinates(body, state, at);
     LIMBER_EXPECT(at.size() == probe.Sigma_L.cols());
-    if (is_principal) {
+    if (needs_all) {
       all.resize(probe.Sigma_L.rows());
       all.noalias() = probe.Sigma_L * at;
     } else {
@@ -113,6 +165,10 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
     }
   }
   if (is_principal) append_principal(probe, all, values);
+  if (is_index(probe.quantity)) append_index(probe, all, values);
+  if (probe.quantity == StressQuantity::section_force) {
+    append_section_forces(all, values);
+  }
 }
 
 }  // namespace limber::scene

@@ -22,7 +22,8 @@ namespace limber::scene {
 ///            the second Piola-Kirchhoff stress; at level `full` Cauchy's
 ///            stress in the axes of the link as it has moved; of several points
 ///            the one with the largest von Mises stress, or the largest
-///            principal stress
+///            principal stress or failure index; of section forces of several
+///            ends each component with the largest magnitude
 /// Source     flexbody/model/stress_modes.hpp, full_stress.hpp
 /// Limits     small strain except at level `full`. Not thread-safe: copy it for
 ///            each thread
@@ -38,10 +39,15 @@ struct StressProbe {
   dynamics::BodyIndex body;
   bool is_of_link = false;        ///< asked for by [output], not by a probe
   std::vector<std::size_t> tags;  ///< p: Gmsh node tags of the points
-  Matrix3X p_L;                   ///< 3 x p: places, undeformed [m]
-  MatrixX Sigma_L;          ///< 6p rows as StressModes::Sigma_B, axes of the
-                            ///< link, columns of the body's coordinates
-  StressClusters clusters;  ///< of the points, which are in its order
+  /// p, of beams and shells: "top", "ply 2 bottom", "beam 7"; else none.
+  std::vector<std::string> layers;
+  Matrix3X p_L;     ///< 3 x p: places, undeformed [m]
+  MatrixX Sigma_L;  ///< 6p rows as StressModes::Sigma_B, axes of the
+                    ///< link, columns of the body's coordinates
+  /// 6 x p as SectionModes::strengths, of the failure indices; else none.
+  MatrixX strengths;
+  bool in_layer_axes = false;  ///< Sigma_L is, of axes 1, 2, 3 of each point
+  StressClusters clusters;     ///< of the points, which are in its order
   /// Number of eigenmodes, which come first; the others are static
   /// deformations, which correct for omitted ones. -1: unknown (saved bodies).
   int eigenmodes = -1;
@@ -50,6 +56,11 @@ struct StressProbe {
   std::shared_ptr<const flexbody::FullStress> full;
   Matrix3 R_BL = Matrix3::Identity();
   mutable Scratch scratch = {};
+
+  /// Of a point; empty for solids.
+  [[nodiscard]] std::string layer_of(std::size_t point) const {
+    return layers.empty() ? std::string() : layers[point];
+  }
 };
 
 /// Name and unit of its columns: "NAME.sxx" [Pa], ..., "NAME.von_mises" [Pa].

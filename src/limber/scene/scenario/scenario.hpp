@@ -125,9 +125,29 @@ struct ControllerProbeSpec {
 
 /// Stress quantities at nodes of a flexible link.
 enum class StressQuantity {
-  stress,         ///< six components, link frame [Pa]
-  von_mises,      ///< [Pa]
-  max_principal,  ///< largest principal stress, tension positive [Pa]
+  stress,          ///< six components, link frame [Pa]
+  von_mises,       ///< [Pa]
+  max_principal,   ///< largest principal stress, tension positive [Pa]
+  tsai_wu,         ///< failure index of a ply [-]
+  maximum_stress,  ///< stress of a ply over its strength, the largest [-]
+  section_force,   ///< of a beam: N, Vy, Vz [N], T, My, Mz [N m]
+};
+
+/// Whether it is a failure index.
+[[nodiscard]] constexpr bool is_index(StressQuantity quantity) {
+  return quantity == StressQuantity::tsai_wu ||
+         quantity == StressQuantity::maximum_stress;
+}
+
+/// Through the thickness of a shell, or of the ply that is given.
+enum class SectionLayer { all, bottom, middle, top };
+
+/// Where in the section of a beam or shell.
+struct SectionSelection {
+  SectionLayer layer = SectionLayer::all;
+  int ply = 0;                 ///< from 1 at the bottom; 0: all
+  int element = 0;             ///< number of a beam; 0: all
+  bool in_layer_axes = false;  ///< components in the axes of the ply or beam
 };
 
 /// A probe of stress at a node, or of the largest at several; without an
@@ -135,6 +155,7 @@ enum class StressQuantity {
 struct StressProbeSpec {
   Place where;
   StressQuantity quantity = StressQuantity::von_mises;
+  SectionSelection section;
 };
 
 struct ProbeSpec {

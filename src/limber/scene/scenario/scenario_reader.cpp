@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <variant>
 
@@ -113,7 +114,22 @@ StressProbeSpec read_stress_probe(TomlTable& table, StressQuantity quantity) {
                "is not for stress, which is that at a node, in the link's "
                "axes; leave it out");
   }
-  return {read_place(table), quantity};
+  SectionSelection section;
+  section.layer = read_choice<SectionLayer>(table, "layer",
+                                            {{"bottom", SectionLayer::bottom},
+                                             {"middle", SectionLayer::middle},
+                                             {"top", SectionLayer::top}},
+                                            SectionLayer::all);
+  constexpr int kMost = std::numeric_limits<int>::max();
+  section.ply = table.integer("ply", 1, kMost).value_or(0);
+  section.element = table.integer("element", 1, kMost).value_or(0);
+  section.in_layer_axes = read_choice<bool>(
+      table, "axes", {{"link", false}, {"layer", true}}, false);
+  if (section.in_layer_axes && quantity != StressQuantity::stress) {
+    table.fail("axes",
+               "is for the components of quantity 'stress'; leave it out");
+  }
+  return {read_place(table), quantity, section};
 }
 
 ProbeSpec read_link_probe(TomlTable& table, const std::string& name) {
@@ -128,7 +144,10 @@ ProbeSpec read_link_probe(TomlTable& table, const std::string& name) {
                            {"deformation", Quantity::deformation},
                            {"stress", StressQuantity::stress},
                            {"von_mises", StressQuantity::von_mises},
-                           {"max_principal", StressQuantity::max_principal}},
+                           {"max_principal", StressQuantity::max_principal},
+                           {"tsai_wu", StressQuantity::tsai_wu},
+                           {"maximum_stress", StressQuantity::maximum_stress},
+                           {"section_force", StressQuantity::section_force}},
                           Quantity::displacement);
   if (const auto* stress = std::get_if<StressQuantity>(&quantity)) {
     return {name, read_stress_probe(table, *stress)};
