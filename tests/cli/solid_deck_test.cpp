@@ -106,9 +106,9 @@ TEST_F(SolidDecks, HaveAUnitOfForce) {
 
 TEST_F(SolidDecks, RefuseWhatASolidBodyLacksByItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"CQUAD4,9,2,1,2,3,4\nPSHELL,2,1,1.\n", "one.bdf:9: CQUAD4 is not a"},
+      {"CQUAD4,9,2,1,2,3,4\nPSHELL,2,1,1.\n", "one.bdf:10: PSHELL 2: MID1"},
       {"CBAR,9,2,1,2,0.,1.,0.\nPBARL,2,1,,ROD\n,2.\n",
-       "one.bdf:9: CBAR is not a"},
+       "the softest row is node 1, rotation about x"},
       {"CELAS2,9,1.+3,1,1,2,1\n", "one.bdf:9: CELAS2 is not a"},
       {"CONM2,9,2,,1.-5,1.,0.,0.\n", "one.bdf:9: CONM2 9: it has an offset"},
       {"MAT1,1,70000.,,.3,2.7-9\n", "one.bdf:9: material 1 is there twice"}};

@@ -89,11 +89,12 @@ TEST_F(Boom, HasTheSameFromASavedBody) {
   const json own = answer(place_, "static s.toml");
   const CommandResult made = place_.limber(
       "reduce " + kFolder +
-      "boom.bdf --clamp spc:1 --interface end=node:3 --modes 2 --stress -o "
+      "boom.bdf --clamp spc:1 --interface node:3 --modes 2 --stress -o "
       "b.h5");
   ASSERT_EQ(made.status, 0) << made.errors;
   write_robot("<reduced file='b.h5'/>");
-  const json saved = answer(place_, "static s.toml");
+  const json saved =
+      answer(place_, "static s.toml --set load.pull.interface=node:3");
   for (const auto& [name, column] : own.at("probes").items()) {
     const double expected = column.at("value").get<double>();
     EXPECT_NEAR(value(saved, name), expected,
@@ -124,7 +125,7 @@ TEST_F(Boom, RefusesWhatItDoesNotHave) {
   expect_error(probe_text("a", "von_mises", "node = 4"),
                "no shell, and no beam");
   expect_error(probe_text("a", "von_mises", "node = 1\naxes = 'layer'"),
-               "'axes'");
+               "probe 1.axes: is for the components");
   expect_error(probe_text("a", "section_force", "node = 1\nply = 1"),
                "not for section forces");
 }

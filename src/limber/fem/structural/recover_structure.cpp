@@ -198,7 +198,7 @@ class StressRecovery {
       for (const Corner& corner : group.corners)
         mean += turn_components(corner.axes) *
                 calc_stress(corner.strains, point, laminate.S);
-      stress_.push_back(mean / static_cast<double>(group.corners.size()));
+      stress_.emplace_back(mean / static_cast<double>(group.corners.size()));
       Matrix3 axes;
       axes.col(2) = normal;
       axes.col(0) = Eigen::AngleAxisd(point.angle, normal) * axis.normalized();
@@ -256,10 +256,10 @@ class StressRecovery {
 }  // namespace
 
 RecoverSections make_recovery(const Structure& structure,
-                              std::vector<int> places, NodeMap map,
+                              std::vector<int> places, const NodeMap& map,
                               DrawnStructure drawn) {
-  const auto model = std::make_shared<const RecoveredModel>(RecoveredModel{
-      structure, std::move(places), std::move(map), std::move(drawn)});
+  const auto model = std::make_shared<const RecoveredModel>(
+      RecoveredModel{structure, std::move(places), map, std::move(drawn)});
   return [model](const MatrixX& moved) {
     return StressRecovery(*model, moved).recover();
   };

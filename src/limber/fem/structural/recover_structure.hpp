@@ -24,6 +24,7 @@ namespace limber::fem {
 /// @param map six unknowns of each node by the model's rows
 [[nodiscard]] RecoverSections make_recovery(const Structure& structure,
                                             std::vector<int> places,
-                                            NodeMap map, DrawnStructure drawn);
+                                            const NodeMap& map,
+                                            DrawnStructure drawn);
 
 }  // namespace limber::fem

@@ -227,14 +227,15 @@ const std::string kInput =
 TEST(MixedStructure, RigidPartsOfInputFilesAreAlike) {
   const MatrixModel first =
       read("a.inp", kInput + "*RIGID BODY, NSET=Face, REF NODE=11\n").model;
+  const std::string by_nodes =
+      "*SURFACE, NAME=Nodes, TYPE=NODE\n2\nFace, 1.\n"
+      "*COUPLING, SURFACE=Nodes, REF NODE=11\n*KINEMATIC\n1, 3\n4, 6\n";
   for (const char* tie :
        {"*RIGID BODY, PIN NSET=Face, REF NODE=Hub\n",
         "*RIGID BODY, TIE NSET=Face, REF NODE=11\n",
         "*COUPLING, CONSTRAINT NAME=C, SURFACE=End, REF NODE=Hub\n*KINEMATIC\n",
         "*COUPLING, SURFACE=End, REF NODE=11\n*KINEMATIC\n1, 3\n",
-        "*SURFACE, NAME=Nodes, TYPE=NODE\n2\nFace, 1.\n"
-        "*COUPLING, SURFACE=Nodes, REF NODE=11\n*KINEMATIC\n1, 3\n4, 6\n",
-        "*MPC\nBEAM, Face, Hub\n"}) {
+        by_nodes.c_str(), "*MPC\nBEAM, Face, Hub\n"}) {
     const MatrixModel other = read("b.inp", kInput + tie).model;
     ASSERT_EQ(other.rows.size(), first.rows.size()) << tie;
     EXPECT_EQ((other.stiffness.entries - first.stiffness.entries).norm(), 0.0)

@@ -30,7 +30,7 @@ Recipe make_recipe(const std::filesystem::path& deck) {
   return recipe;
 }
 
-ReducedBody reduce(const Recipe& recipe) {
+ReducedBody reduce_deck(const Recipe& recipe) {
   return reduce_matrices(recipe, read_matrix_part(recipe.mesh));
 }
 
@@ -42,7 +42,7 @@ VectorX find_static(const ReducedBody& body, const Vector3& force) {
 
 /// A tube of two metres under 100 N across its end.
 TEST(SectionModes, HaveTheForcesAndStressOfACantilever) {
-  const ReducedBody body = reduce(make_recipe(kBoom));
+  const ReducedBody body = reduce_deck(make_recipe(kBoom));
   ASSERT_TRUE(body.stress.has_value());
   const SectionModes& sections = body.stress->sections;
   const VectorX eta = find_static(body, Vector3(0, 100, 0));
@@ -67,7 +67,7 @@ TEST(SectionModes, HaveTheForcesAndStressOfACantilever) {
 }
 
 TEST(SectionModes, AreTheSameAfterAFile) {
-  const ReducedBody body = reduce(make_recipe(kBoom));
+  const ReducedBody body = reduce_deck(make_recipe(kBoom));
   const std::filesystem::path file = limber::test::own_folder() / "boom.h5";
   write_body(body, file);
   const ReducedBody read = read_body(file);
@@ -91,7 +91,7 @@ TEST(SectionModes, AreTheSameAfterAFile) {
 TEST(SectionModes, CountWhatIsNotKept) {
   Recipe recipe = make_recipe(kBoom);
   recipe.rows = parse_rows({"spc:1"});
-  const ReducedBody body = reduce(recipe);
+  const ReducedBody body = reduce_deck(recipe);
   const SectionModes& sections = body.stress->sections;
   EXPECT_EQ(sections.nodes.size(), 24U);  // around node 1, and the interface
   EXPECT_EQ(sections.left_out + sections.nodes.size(), 48U);
@@ -144,7 +144,7 @@ Strip load_strip(const Deck& deck) {
   Recipe recipe = make_recipe(write_strip(deck));
   recipe.mesh.unit = 1.0 / deck.length;
   recipe.interfaces = {{"end", TaggedNode{5}}};
-  const ReducedBody body = reduce(recipe);
+  const ReducedBody body = reduce_deck(recipe);
   const StressModes& modes = *body.stress;
   const VectorX stress = modes.Sigma_B * find_static(body, Vector3(0, 0, 1));
   Strip strip;
