@@ -132,15 +132,10 @@ class ContentReader {
   void add_node(const DeckPlace& at, std::string_view line) {
     const std::vector<std::string_view> fields = split_commas(line);
     const long number = read_deck_number(at, fields[0], "node");
-    Vector3 x = Vector3::Zero();
-    for (std::size_t i = 1; i < std::min<std::size_t>(fields.size(), 4); ++i) {
-      double value = 0.0;
-      if (!fields[i].empty() && !parse_real(fields[i], value))
-        at.fail(fmt::format("'{}' is no finite number. Expected one.",
-                            echo(fields[i])));
-      x[static_cast<Eigen::Index>(i) - 1] = value;
-    }
-    if (!deck_.nodes.emplace(static_cast<std::size_t>(number), x).second)
+    if (!deck_.nodes
+             .emplace(static_cast<std::size_t>(number),
+                      read_deck_point(at, fields))
+             .second)
       at.fail(fmt::format("node {} is there twice. Expected each node once.",
                           number));
     deck_.node_sets.add(keyword_.get("NSET"), number);

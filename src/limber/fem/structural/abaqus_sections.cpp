@@ -22,14 +22,6 @@ constexpr double kDegree = std::numbers::pi / 180.0;
   throw InputError(fmt::format("{}: {}", section.place, what));
 }
 
-double read_real(const DeckPlace& at, std::string_view field) {
-  double value = 0.0;
-  if (!field.empty() && !parse_real(field, value))
-    at.fail(
-        fmt::format("'{}' is no finite number. Expected one.", echo(field)));
-  return value;
-}
-
 /// Number `i` of a section's data line; 0 where it is blank or absent.
 double read_real(const AbaqusSection& section, std::size_t line,
                  std::size_t i) {
@@ -115,13 +107,13 @@ void AbaqusSections::add_data(const DeckPlace& at, std::string_view line) {
     if (material.elastic.size() >= most)
       at.fail("*ELASTIC depends on the temperature. Expected one line of it.");
     for (const std::string_view field : fields)
-      material.elastic.push_back(read_real(at, field));
+      material.elastic.push_back(read_deck_real(at, field));
     if (material.elastic.size() > most - 8) material.elastic.resize(most);
   } else if (reading_ == "FAIL STRESS") {
     add_strengths(at, fields);
   } else if (reading_ == "DENSITY") {
     if (!materials_[name_].density)
-      materials_[name_].density = read_real(at, fields[0]);
+      materials_[name_].density = read_deck_real(at, fields[0]);
   } else if (reading_ == "ORIENTATION") {
     add_orientation(at, line);
   } else if (!sections_.empty()) {
@@ -142,7 +134,7 @@ void AbaqusSections::add_strengths(
         "*FAIL STRESS depends on the temperature, or is there twice. Expected "
         "one line of it.");
   for (std::size_t i = 0; i < std::min<std::size_t>(fields.size(), 6); ++i)
-    s[static_cast<Eigen::Index>(i)] = read_real(at, fields[i]);
+    s[static_cast<Eigen::Index>(i)] = read_deck_real(at, fields[i]);
   s[1] = std::abs(s[1]);
   s[3] = std::abs(s[3]);
   if (!(s.head<5>().minCoeff() > 0.0) || std::abs(s[5]) > 1.0 ||
@@ -161,7 +153,7 @@ void AbaqusSections::add_orientation(const DeckPlace& at,
   if (!orientation.problem.empty()) return;
   std::vector<double> values;
   for (const std::string_view field : split_commas(line))
-    values.push_back(read_real(at, field));
+    values.push_back(read_deck_real(at, field));
   values.resize(9);
   if (orientation.axes) {
     if (values[0] != 3.0 && values[1] != 0.0)

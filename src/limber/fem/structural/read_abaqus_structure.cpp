@@ -153,21 +153,10 @@ class StructureDeckReader {
     }
   }
 
-  static double read_number(const DeckPlace& at, std::string_view field) {
-    double value = 0.0;
-    if (!field.empty() && !parse_real(field, value))
-      at.fail(
-          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
-    return value;
-  }
-
   void add_node(const DeckPlace& at, std::string_view line) {
     const std::vector<std::string_view> fields = split_commas(line);
     const long number = read_deck_number(at, fields[0], "node");
-    Vector3 x = Vector3::Zero();
-    for (std::size_t i = 1; i < std::min<std::size_t>(fields.size(), 4); ++i)
-      x[static_cast<Eigen::Index>(i) - 1] = read_number(at, fields[i]);
-    if (!points_.emplace(number, x).second)
+    if (!points_.emplace(number, read_deck_point(at, fields)).second)
       at.fail(fmt::format("node {} is there twice. Expected each node once.",
                           number));
     mesh_.node_sets.add(keyword_.get("NSET"), number);
@@ -203,7 +192,7 @@ class StructureDeckReader {
   }
 
   void add_mass(const DeckPlace& at, std::string_view line) {
-    const double mass = read_number(at, split_commas(line)[0]);
+    const double mass = read_deck_real(at, split_commas(line)[0]);
     if (!(mass >= 0.0)) at.fail("*MASS is below 0. Expected a mass.");
     masses_[keyword_.get("ELSET")] = mass;
   }

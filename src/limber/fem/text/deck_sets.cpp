@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "limber/common/echo.hpp"
 #include "limber/common/upper_case.hpp"
 
@@ -34,6 +36,22 @@ long read_deck_number(const DeckPlace& at, std::string_view field,
     at.fail(fmt::format("'{}' is no {}. Expected an integer from 1.",
                         echo(field), what));
   return value;
+}
+
+double read_deck_real(const DeckPlace& at, std::string_view field) {
+  double value = 0.0;
+  if (!field.empty() && !parse_real(field, value))
+    at.fail(
+        fmt::format("'{}' is no finite number. Expected one.", echo(field)));
+  return value;
+}
+
+Vector3 read_deck_point(const DeckPlace& at,
+                        const std::vector<std::string_view>& fields) {
+  Vector3 x = Vector3::Zero();
+  for (std::size_t i = 1; i < std::min<std::size_t>(fields.size(), 4); ++i)
+    x[static_cast<Eigen::Index>(i) - 1] = read_deck_real(at, fields[i]);
+  return x;
 }
 
 void read_set_line(const DeckPlace& at, const Keyword& keyword,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limber/common/types.hpp"
 #include "limber/fem/text/deck_place.hpp"
 #include "limber/fem/text/keyword_deck.hpp"
 
@@ -15,6 +16,16 @@ namespace limber::fem {
 /// @throws InputError with file and line unless it is an integer from 1
 [[nodiscard]] long read_deck_number(const DeckPlace& at, std::string_view field,
                                     const char* what);
+
+/// 0 of a blank field. @throws InputError with file and line unless it is a
+/// finite number
+[[nodiscard]] double read_deck_real(const DeckPlace& at,
+                                    std::string_view field);
+
+/// Coordinates of a line of *NODE, fields 2 to 4; 0 where they are blank or
+/// absent. @throws InputError as read_deck_real
+[[nodiscard]] Vector3 read_deck_point(
+    const DeckPlace& at, const std::vector<std::string_view>& fields);
 
 /// What is done with the entries of a set.
 struct SetReading {
@@ -37,11 +48,6 @@ class DeckSets {
                 const std::string& name, std::string_view line);
   void add(const std::string& name, long number) {
     if (!name.empty()) sets_[name].push_back(number);
-  }
-
-  void merge(const DeckSets& others) {
-    for (const auto& [name, numbers] : others.sets_)
-      sets_[name].insert(sets_[name].end(), numbers.begin(), numbers.end());
   }
 
   [[nodiscard]] const std::map<std::string, std::vector<long>>& all() const {

@@ -199,15 +199,7 @@ class FlatDeckReader {
           "*INSTANCE has a line too many or too long. Expected a translation "
           "of three numbers, and two points and an angle.");
     for (std::size_t i = 0; i < fields.size(); ++i)
-      move[i] = read_number(at, fields[i]);
-  }
-
-  static double read_number(const DeckPlace& at, std::string_view field) {
-    double value = 0.0;
-    if (!field.empty() && !parse_real(field, value))
-      at.fail(
-          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
-    return value;
+      move[i] = read_deck_real(at, fields[i]);
   }
 
   /// A line of translation, and one of two points and an angle [degrees] about
@@ -336,7 +328,7 @@ class FlatDeckReader {
     fields.resize(4);
     Vector3 x;
     for (Eigen::Index i = 0; i < 3; ++i)
-      x[i] = read_number(at, fields[static_cast<std::size_t>(i) + 1]);
+      x[i] = read_deck_real(at, fields[static_cast<std::size_t>(i) + 1]);
     x = scope.pose * x;
     for (Eigen::Index i = 0; i < 3; ++i)
       fields[static_cast<std::size_t>(i) + 1] = fmt::format("{}", x[i]);
