@@ -7,6 +7,7 @@
 #include <set>
 
 #include "limber/common/errors.hpp"
+#include "limber/reduction/modal/kept_rows.hpp"
 #include "limber/reduction/modal/support.hpp"
 
 namespace limber::flexbody {
@@ -41,29 +42,12 @@ std::vector<std::size_t> tags_of(const fem::Mesh& mesh,
   return tags;
 }
 
-std::vector<std::array<std::size_t, 3>> kept_triangles(
-    const fem::Mesh& mesh, const std::vector<int>& kept) {
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (const std::array<int, 3>& nodes : fem::boundary_triangles(mesh)) {
-    std::array<std::size_t, 3> rows{};
-    bool is_kept = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto found = std::lower_bound(kept.begin(), kept.end(), nodes[i]);
-      is_kept = is_kept && found != kept.end() && *found == nodes[i];
-      rows[i] = static_cast<std::size_t>(found - kept.begin());
-    }
-    if (is_kept) triangles.push_back(rows);
-  }
-  return triangles;
-}
-
 // Index of each node in `kept`, which has all of them.
 std::vector<std::size_t> find_rows(const std::vector<int>& kept,
                                    const std::vector<int>& nodes) {
   std::vector<std::size_t> rows;
   for (const int node : nodes) {
-    const auto found = std::lower_bound(kept.begin(), kept.end(), node);
-    rows.push_back(static_cast<std::size_t>(found - kept.begin()));
+    rows.push_back(find_kept_row(kept, node).value());
   }
   return rows;
 }
@@ -77,7 +61,7 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
   body.rows.tags = tags_of(mesh, kept);
   body.rows.x_B = Matrix3X(mesh.x(Eigen::all, kept)).colwise() - body.p_MoBcm_M;
   body.rows.Phi_B = take_rows(Phi, kept);
-  body.triangles = kept_triangles(mesh, kept);
+  body.triangles = find_kept_elements(fem::boundary_triangles(mesh), kept);
   for (const fem::PhysicalGroup& group : mesh.groups) {
     const auto is_kept = [&](int node) {
       return std::binary_search(kept.begin(), kept.end(), node);

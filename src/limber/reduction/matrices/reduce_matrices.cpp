@@ -14,6 +14,7 @@
 #include "limber/reduction/matrices/matrix_inertia.hpp"
 #include "limber/reduction/matrices/matrix_interfaces.hpp"
 #include "limber/reduction/matrices/section_rows.hpp"
+#include "limber/reduction/modal/kept_rows.hpp"
 #include "limber/reduction/modal/selection.hpp"
 #include "limber/reduction/modal/static_modes.hpp"
 
@@ -45,25 +46,6 @@ std::vector<int> choose_nodes(const MatrixSystem& system, const Recipe& recipe,
   return {kept.begin(), kept.end()};
 }
 
-/// Index in `kept` of each node; none if one is missing.
-template <std::size_t count>
-std::vector<std::array<std::size_t, count>> find_kept(
-    const std::vector<std::array<int, count>>& elements,
-    const std::vector<int>& kept) {
-  std::vector<std::array<std::size_t, count>> found;
-  for (const std::array<int, count>& nodes : elements) {
-    std::array<std::size_t, count> rows{};
-    bool is_kept = true;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto at = std::lower_bound(kept.begin(), kept.end(), nodes[i]);
-      is_kept = is_kept && at != kept.end() && *at == nodes[i];
-      rows[i] = static_cast<std::size_t>(at - kept.begin());
-    }
-    if (is_kept) found.push_back(rows);
-  }
-  return found;
-}
-
 std::vector<std::size_t> tags_of(const MatrixSystem& system,
                                  const std::vector<int>& nodes) {
   std::vector<std::size_t> tags;
@@ -84,7 +66,7 @@ void keep_nodes(const MatrixBody& meshed, const Recipe& recipe,
   for (std::size_t i = 0; i < kept.size(); ++i)
     body.rows.Phi_B.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
         fields.middleRows<3>(field_row(kept[i], 0));
-  body.triangles = find_kept(system.triangles, kept);
+  body.triangles = find_kept_elements(system.triangles, kept);
   for (const fem::MatrixNodeSet& set : system.sets) {
     const auto is_kept = [&](int node) {
       return std::binary_search(kept.begin(), kept.end(), node);

@@ -3,19 +3,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <utility>
+
+#include "limber/reduction/modal/kept_rows.hpp"
 
 namespace limber::flexbody {
 namespace {
-
-/// Index of a node in `kept`.
-std::optional<std::size_t> find_kept_row(const std::vector<int>& kept,
-                                         int node) {
-  const auto found = std::lower_bound(kept.begin(), kept.end(), node);
-  if (found == kept.end() || *found != node) return std::nullopt;
-  return static_cast<std::size_t>(found - kept.begin());
-}
 
 /// A point that is stored.
 struct KeptPoint {
