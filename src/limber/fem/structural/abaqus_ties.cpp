@@ -131,15 +131,19 @@ void AbaqusTies::add_data(const DeckPlace& at, std::string_view line) {
 
 void AbaqusTies::add_to(const AbaqusMesh& mesh, std::set<int> turning,
                         Structure& structure) const {
-  for (const Tie& tie : ties_)
-    turning.insert(find_reference(mesh, tie.reference, tie.place));
+  std::vector<int> references;
   for (const Tie& tie : ties_) {
+    references.push_back(find_reference(mesh, tie.reference, tie.place));
+    turning.insert(references.back());
+  }
+  for (std::size_t t = 0; t < ties_.size(); ++t) {
+    const Tie& tie = ties_[t];
     if (tie.is_open)
       throw InputError(fmt::format(
           "{}: *COUPLING has no kind. Expected *KINEMATIC or *DISTRIBUTING "
           "after it.",
           tie.place));
-    const int reference = find_reference(mesh, tie.reference, tie.place);
+    const int reference = references[t];
     std::map<int, double> weights;
     if (tie.kind == Of::surface) {
       weights = surfaces_.find_weights(mesh, tie.of, tie.place);

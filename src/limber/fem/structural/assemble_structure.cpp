@@ -228,11 +228,10 @@ class StructureAssembler {
           structure_.source, count));
   }
 
-  /// A, of six unknowns of each node, by the rows.
-  [[nodiscard]] Sparse reduce(const Triplets& triplets) const {
-    Sparse A(map_.rows(), map_.rows());
+  /// A, of six unknowns of each node, by the rows. @param T map_ by columns
+  static Sparse reduce(const Triplets& triplets, const Sparse& T) {
+    Sparse A(T.rows(), T.rows());
     A.setFromTriplets(triplets.begin(), triplets.end());
-    const Sparse T = map_;
     return T.transpose() * Sparse(A * T);
   }
 
@@ -252,14 +251,15 @@ class StructureAssembler {
     if (!solids_.mesh.blocks.empty())
       solid = assemble_elements(solids_.mesh, solids_.materials);
     MatrixModel& model = result_.model;
-    const Sparse K = reduce(list_stiffness(solid));
+    const Sparse T = map_;
+    const Sparse K = reduce(list_stiffness(solid), T);
     model.stiffness = {structure_.source, 0.5 * (K + Sparse(K.transpose())),
                        17};
     constexpr std::array<std::array<int, 2>, 6> kPlaces = {
         {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
     for (std::size_t i = 0; i < kPlaces.size(); ++i)
       model.moments[i] =
-          reduce(list_moment(solid, kPlaces[i][0], kPlaces[i][1]));
+          reduce(list_moment(solid, kPlaces[i][0], kPlaces[i][1]), T);
     const Sparse M = model.moments[0] + model.moments[1] + model.moments[2];
     model.mass = {structure_.source, 0.5 * (M + Sparse(M.transpose())), 17};
     result_.mass += solids_.unit * solid.M_s.sum();

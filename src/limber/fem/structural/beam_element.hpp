@@ -21,6 +21,10 @@ struct BeamMaterial {
   double youngs_modulus = 0.0;  ///< E
   double shear_modulus = 0.0;   ///< G
   double density = 0.0;         ///< rho
+
+  [[nodiscard]] double poissons_ratio() const {
+    return 0.5 * youngs_modulus / shear_modulus - 1.0;
+  }
 };
 
 /// Axes x, y, z of the beam's section as columns. @throws InputError, without

@@ -11,11 +11,10 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/fem/mesh/linear_cell.hpp"
+#include "limber/fem/structural/place_element.hpp"
 
 namespace limber::fem {
 namespace {
-
-constexpr double kFold = 0.866;  // cos 30 degrees
 
 using Side = ModelSkin::Side;
 
@@ -91,7 +90,7 @@ class StructureDrawer {
                      double top) {
     for (const int i : faces_of_[node]) {
       FaceNode& face = drawn_.faces[index(i)];
-      if (face.normal.dot(normal) < kFold || face.bottom != bottom ||
+      if (face.normal.dot(normal) < kSameDirection || face.bottom != bottom ||
           face.top != top)
         continue;
       face.sum += normal;
@@ -172,10 +171,7 @@ class StructureDrawer {
 
   // ---- beams
   void draw_beam(const StructureBeam& beam) {
-    const Matrix3 axes = find_beam_axes(
-        {{structure_.x.col(beam.nodes[0]), structure_.x.col(beam.nodes[1])},
-         beam.offsets,
-         beam.up});
+    const Matrix3 axes = find_axes(structure_, beam);
     const auto outline =
         list_outline(structure_.beam_properties[index(beam.property)].section);
     std::array<std::vector<int>, 2> rings;
@@ -219,9 +215,8 @@ class StructureDrawer {
           {laminate.outer.E_2 / area, laminate.outer.nu_12, 0.0});
     for (const BeamProperty& property : structure_.beam_properties) {
       const BeamMaterial& m = property.material;
-      skin.materials.push_back({m.youngs_modulus / area,
-                                0.5 * m.youngs_modulus / m.shear_modulus - 1.0,
-                                0.0});
+      skin.materials.push_back(
+          {m.youngs_modulus / area, m.poissons_ratio(), 0.0});
     }
     const auto first = static_cast<int>(skin.materials.size());
     skin.materials.insert(skin.materials.end(),

@@ -23,6 +23,10 @@ struct PlacedStructure {
   const NodeMap& map;
 };
 
+/// Cosine of the largest angle between normals, or fibres, that are taken as
+/// one: 30 degrees.
+inline constexpr double kSameDirection = 0.866;
+
 /// A node of a shell as its faces have it: elements around it whose normals
 /// differ by at most 30 degrees share one, others beyond a fold have their own.
 struct FaceNode {

@@ -15,8 +15,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kSameDirection = 0.866;  // cos 30 degrees
-
 /// From components (xx, yy, zz, xy, yz, xz) in axes to those of the model.
 Matrix6 turn_components(const Matrix3& axes) {
   constexpr std::array<std::array<int, 2>, 6> kPlaces = {
@@ -240,8 +238,7 @@ class StressRecovery {
     }
     for (const BeamProperty& beam : beams) {
       const BeamMaterial& m = beam.material;
-      result_.constants.col(i++) << m.youngs_modulus,
-          0.5 * m.youngs_modulus / m.shear_modulus - 1.0;
+      result_.constants.col(i++) << m.youngs_modulus, m.poissons_ratio();
     }
   }
 

@@ -15,11 +15,6 @@ namespace {
 using flexbody::ReducedBody;
 using flexbody::SectionModes;
 
-std::string name_point(const SectionModes& sections, std::size_t point) {
-  return name_section_place(static_cast<SectionFace>(sections.faces[point]),
-                            sections.plies[point]);
-}
-
 /// Of the shell, or of the ply that is selected.
 bool fits_layer(const SectionModes& sections, std::size_t point,
                 const SectionSelection& section) {
@@ -63,7 +58,7 @@ std::set<std::size_t> find_nodes(const flexbody::StressModes& modes,
   }
   std::set<std::string> names;
   for (const std::size_t point : there) {
-    names.insert(name_point(sections, point));
+    names.insert(name_section_point(sections, point));
   }
   throw InputError(
       fmt::format("it has no such layer; expected one of those there: {}",
@@ -71,6 +66,12 @@ std::set<std::size_t> find_nodes(const flexbody::StressModes& modes,
 }
 
 }  // namespace
+
+std::string name_section_point(const SectionModes& sections,
+                               std::size_t point) {
+  return name_section_place(static_cast<SectionFace>(sections.faces[point]),
+                            sections.plies[point]);
+}
 
 std::vector<Eigen::Index> select_section_points(
     const ReducedBody& body, const std::set<std::size_t>& rows,

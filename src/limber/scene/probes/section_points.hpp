@@ -23,6 +23,10 @@ namespace limber::scene {
 [[nodiscard]] std::set<std::size_t> find_section_rows(
     const flexbody::ReducedBody& body, StressQuantity quantity);
 
+/// "top", "ply 2 bottom" (name_section_place).
+[[nodiscard]] std::string name_section_point(
+    const flexbody::SectionModes& sections, std::size_t point);
+
 /// Axes of a point in B, with which its components are.
 [[nodiscard]] Matrix3 find_section_axes(const flexbody::SectionModes& sections,
                                         Eigen::Index point);

@@ -13,7 +13,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/common/material/section_place.hpp"
 #include "limber/scene/probes/section_points.hpp"
 
 namespace limber::scene {
@@ -232,9 +231,8 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
     const Eigen::Index point = points[index(order[i])];
     const Eigen::Index row = find_node_row(modes, point);
     if (sections.exist()) {
-      const auto at = static_cast<std::size_t>(point);
-      probe.layers.push_back(name_section_place(
-          static_cast<SectionFace>(sections.faces[at]), sections.plies[at]));
+      probe.layers.push_back(
+          name_section_point(sections, static_cast<std::size_t>(point)));
     }
     if (is_index(quantity)) {
       probe.strengths.col(static_cast<Eigen::Index>(i)) =
