@@ -61,10 +61,11 @@ VectorX find_strain(const SmallMotion& motion, const MatrixX& Q) {
 double find_lowest(const SystemModel& model, const SmallMotion& motion,
                    const OwnModes& own) {
   const PrincipalBasis basis = find_principal_basis(model, motion);
-  const VectorX strain = find_strain(motion, basis.Q);
-  const VectorX S = motion.project_stiffness(basis.Q).diagonal();
+  const MatrixX held = basis.Q.rightCols(basis.squares.size());
+  const VectorX strain = find_strain(motion, held);
+  const VectorX S = motion.project_squares(held);
   double lowest = own.low;
-  for (Index i = basis.free; i < S.size(); ++i) {
+  for (Index i = 0; i < S.size(); ++i) {
     if (!(S[i] > 0.0) || strain[i] < kLeastStrain * S[i]) continue;
     lowest = std::min(lowest, std::sqrt(S[i]));
   }

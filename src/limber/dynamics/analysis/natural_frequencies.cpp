@@ -176,8 +176,8 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
 
 /// At rest and undamped: from the diagonal of the basis.
 void add_frequencies(const SteadyMotion& c, std::vector<NaturalMode>& modes) {
-  const VectorX squares = c.motion.project_stiffness(c.basis.Q).diagonal().tail(
-      c.motion.size() - c.basis.free);
+  const VectorX squares = c.motion.project_squares(
+      c.basis.Q.rightCols(c.motion.size() - c.basis.free));
   for (const double s : squares) {
     const double w = std::sqrt(std::abs(s));
     if (s < 0.0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/principal_basis.hpp"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "limber/common/dense/linear_solve.hpp"
@@ -53,19 +54,51 @@ bool is_symmetric(const MatrixX& S) {
   return (S - S.transpose()).norm() <= kSame * S.norm();
 }
 
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Of M = U' U, which has a block for each body.
+struct MassRoot {
+  Sparse U;
+  Sparse inverse;
+};
+
+MassRoot find_mass_root(const SystemModel& model, const SmallMotion& motion) {
+  std::vector<Eigen::Triplet<double>> U;
+  std::vector<Eigen::Triplet<double>> inverse;
+  for (const BodyIndex b : motion.bodies) {
+    const Index place = motion.places[index(b)];
+    const Index modes = model.bodies[index(b)].modes;
+    const Index size = (place < 0 ? 0 : 6) + modes;
+    const Index first = place < 0 ? motion.modes[index(b)] : place;
+    const auto L =
+        dense::find_cholesky(MatrixX(motion.M.block(first, first, size, size)));
+    LIMBER_EXPECT(L.has_value());
+    const MatrixX to_x =
+        dense::solve_lower_transposed(*L, MatrixX::Identity(size, size));
+    for (Index j = 0; j < size; ++j) {
+      for (Index i = 0; i <= j; ++i) {
+        U.emplace_back(first + i, first + j, (*L)(j, i));
+        inverse.emplace_back(first + i, first + j, to_x(i, j));
+      }
+    }
+  }
+  MassRoot root{Sparse(motion.size(), motion.size()),
+                Sparse(motion.size(), motion.size())};
+  root.U.setFromTriplets(U.begin(), U.end());
+  root.inverse.setFromTriplets(inverse.begin(), inverse.end());
+  return root;
+}
+
 /// Of one linked group, with its own sizes.
 PrincipalBasis find_group_basis(const SystemModel& model,
                                 const SmallMotion& motion) {
   constexpr double kNothing = 1e-9;
   constexpr double kSafety = 10.0;  // of round-off
   const Index n = motion.size();
-  const auto L = dense::find_cholesky(motion.M);  // M = L L'
-  LIMBER_EXPECT(L.has_value());
-  const MatrixX to_x =
-      dense::solve_lower_transposed(*L, MatrixX::Identity(n, n));
+  const auto [U, to_x] = find_mass_root(model, motion);
   MatrixX drift = find_free_translations(model, motion);
   if (drift.cols() > 0) {  // separate: momentum is conserved
-    drift = dense::find_q(L->transpose() * drift, drift.cols());
+    drift = dense::find_q(U * drift, drift.cols());
   }
   const MatrixX holds = motion.find_holds() * to_x;
   MatrixX rows(holds.rows() + drift.cols(), n);
@@ -74,8 +107,11 @@ PrincipalBasis find_group_basis(const SystemModel& model,
   const MatrixX open = find_null_space(rows);
   MatrixX free = drift;
   if (open.cols() > 0) {
-    const MatrixX rest = to_x.transpose() * motion.rest * to_x;
-    const MatrixX noise = to_x.transpose() * motion.noise * to_x * open;
+    const auto scale = [&to_x = to_x](const MatrixX& forces) -> MatrixX {
+      return to_x.transpose() * MatrixX(forces * to_x);
+    };
+    const MatrixX rest = scale(motion.rest);
+    const MatrixX noise = scale(motion.noise) * open;
     const auto svd = dense::find_right_singular_form(rest * open);
     const double least = kNothing * rest.norm() + kSafety * noise.norm();
     const Index resisted = (svd.values.array() > least).count();
@@ -83,18 +119,19 @@ PrincipalBasis find_group_basis(const SystemModel& model,
     free.conservativeResize(n, drift.cols() + loose);
     free.rightCols(loose) = open * svd.V.rightCols(loose);
   }
-  if (free.cols() == n) {
-    PrincipalBasis basis{to_x * free, n, drift.cols(), {}, true};
-    basis.is_symmetric = is_symmetric(motion.project_stiffness(basis.Q));
-    return basis;
-  }
-  const MatrixX other = to_x * find_complement(free);
-  const MatrixX S = motion.project_stiffness(other);
-  const auto eigen = dense::find_eigenpairs(MatrixX(0.5 * (S + S.transpose())));
-  PrincipalBasis basis{MatrixX(n, n), free.cols(), drift.cols(), eigen.values,
-                       true};
-  basis.Q << to_x * free, other * eigen.vectors;
-  basis.is_symmetric = is_symmetric(motion.project_stiffness(basis.Q));
+  // Orthogonal changes of columns leave the norms of symmetry as they are.
+  const Index held = n - free.cols();
+  PrincipalBasis basis{MatrixX(n, n), free.cols(), drift.cols(), {}, true};
+  basis.Q.leftCols(free.cols()) = to_x * free;
+  if (held > 0) basis.Q.rightCols(held) = to_x * find_complement(free);
+  const MatrixX S = motion.project_stiffness(basis.Q);
+  basis.is_symmetric = is_symmetric(S);
+  if (held == 0) return basis;
+  const MatrixX block = S.bottomRightCorner(held, held);
+  const auto eigen =
+      dense::find_eigenpairs(MatrixX(0.5 * (block + block.transpose())));
+  basis.squares = eigen.values;
+  basis.Q.rightCols(held) = (basis.Q.rightCols(held) * eigen.vectors).eval();
   return basis;
 }
 

@@ -289,40 +289,6 @@ class Derivatives {
   std::vector<Index> rows_;  // of NewtonMatrix, one per coordinate
 };
 
-// Rotation from the axes to the frames of the state.
-MatrixX make_turn(const SmallMotion& motion, const SystemState& state,
-                  const Matrix3& R) {
-  MatrixX P = MatrixX::Identity(motion.size(), motion.size());
-  for (std::size_t b = 0; b < motion.places.size(); ++b) {
-    const Index p = motion.places[b];
-    if (p < 0) continue;
-    const Matrix3 R_WB = state.bodies[b].quat_WB.toRotationMatrix();
-    P.block<3, 3>(p, p) = R;
-    P.block<3, 3>(p + 3, p + 3) = R_WB.transpose() * R;
-  }
-  return P;
-}
-
-// W and V of the equation.
-std::pair<MatrixX, MatrixX> make_spins(const SmallMotion& motion,
-                                       const SystemState& state,
-                                       const TurningAxes& axes) {
-  const Index n = motion.size();
-  MatrixX W = MatrixX::Zero(n, n);
-  MatrixX V = MatrixX::Zero(n, n);
-  const Vector3 w = axes.R.transpose() * axes.w_W;
-  for (std::size_t b = 0; b < motion.places.size(); ++b) {
-    const Index p = motion.places[b];
-    if (p < 0) continue;
-    const BodyState& body = state.bodies[b];
-    const Vector3 w_W = body.quat_WB * body.w_WB_B;
-    W.block<3, 3>(p, p) = W.block<3, 3>(p + 3, p + 3) = skew(w);
-    V.block<3, 3>(p, p) = skew(w);
-    V.block<3, 3>(p + 3, p + 3) = skew(w - axes.R.transpose() * w_W);
-  }
-  return {W, V};
-}
-
 void check_levels(const SystemModel& model) {
   for (const FullModel& full : model.full_bodies) {
     throw InputError(fmt::format(
@@ -375,13 +341,32 @@ MatrixX SmallMotion::project_stiffness(const MatrixX& Q) const {
     const Index row = 6 * static_cast<Index>(i);
     forces.middleRows<6>(row) = K[i] * motions.middleRows<6>(row);
   }
-  MatrixX S = Q.transpose() * (lambda.asDiagonal() * Q) +
-              motions.transpose() * forces + Q.transpose() * (rest * Q);
+  MatrixX S =
+      Q.transpose() * (lambda.asDiagonal() * Q) + motions.transpose() * forces;
+  if (!rest.isZero(0.0)) S += Q.transpose() * (rest * Q);
   for (const ModalBlock& block : coupled) {
     const auto rows = Q.middleRows(block.first, block.K.rows());
     S += rows.transpose() * (block.K * rows);
   }
   return S;
+}
+
+VectorX SmallMotion::project_squares(const MatrixX& Q) const {
+  const MatrixX motions = G * Q;
+  VectorX squares =
+      (lambda.asDiagonal() * Q.cwiseAbs2()).colwise().sum().transpose();
+  for (std::size_t i = 0; i < K.size(); ++i) {
+    const auto rows = motions.middleRows<6>(6 * static_cast<Index>(i));
+    squares += rows.cwiseProduct(K[i] * rows).colwise().sum().transpose();
+  }
+  if (!rest.isZero(0.0)) {
+    squares += Q.cwiseProduct(rest * Q).colwise().sum().transpose();
+  }
+  for (const ModalBlock& block : coupled) {
+    const auto rows = Q.middleRows(block.first, block.K.rows());
+    squares += rows.cwiseProduct(block.K * rows).colwise().sum().transpose();
+  }
+  return squares;
 }
 
 MatrixX SmallMotion::find_holds() const {
@@ -416,22 +401,7 @@ SmallMotion find_small_motion(const SystemModel& model,
   check_levels(model);
   SmallMotion motion;
   Derivatives(model, state, frames, motion).fill();
-  const MatrixX P = make_turn(motion, state, axes.R);
-  const auto [W, V] = make_spins(motion, state, axes);
-  const MatrixX C = P.transpose() * motion.D * P;
-  motion.M = (P.transpose() * motion.M * P).eval();
-  motion.D = C + motion.M * (W + V);
-  motion.G *= P;
-  motion.rest =
-      (P.transpose() * motion.rest * P + C * W + motion.M * V * W).eval();
-  motion.noise = (P.transpose() * motion.noise * P).eval();
-  const auto turn_velocities = [&P, &W = W](MatrixX& by_x, MatrixX& by_rate) {
-    by_rate *= P;
-    by_x = (by_x * P + by_rate * W).eval();
-  };
-  turn_velocities(motion.velocities, motion.velocities_by_rate);
-  turn_velocities(motion.frame_velocities, motion.frame_velocities_by_rate);
-  motion.frames *= P;
+  motion.express_in(axes, state);
   return motion;
 }
 

@@ -81,6 +81,8 @@ struct SmallMotion {
   /// Q' S Q, evaluated to preserve the digits of soft motion in Q beside stiff
   /// couplers.
   [[nodiscard]] MatrixX project_stiffness(const MatrixX& Q) const;
+  /// The diagonal of Q' S Q, likewise.
+  [[nodiscard]] VectorX project_squares(const MatrixX& Q) const;
   /// E Q, a row for each y.
   [[nodiscard]] MatrixX project_relaxations(const MatrixX& Q) const;
   /// 1 / tau of each y [1/s].
@@ -88,6 +90,9 @@ struct SmallMotion {
   /// Constraint directions, independent of stiffness: x is constrained if a row
   /// times x is not 0.
   [[nodiscard]] MatrixX find_holds() const;
+  /// From coordinates of the state (positions in the world frame, rotations in
+  /// the body frames), with C in D and K_q without stiffness in `rest`.
+  void express_in(const TurningAxes& axes, const SystemState& state);
 };
 
 /// Linearises about the motion of the system from `state`, with loads after a

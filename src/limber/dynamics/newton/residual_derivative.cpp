@@ -10,7 +10,6 @@
 #include "limber/dynamics/equations/nodal_jacobian.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
-#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -44,6 +43,7 @@ std::pair<Matrix3X, Matrix3X> change_tables(const Attachment& attachment,
 
 ResidualDerivative::ResidualDerivative(const SystemModel& model)
     : model_(model),
+      is_moved_(model.bodies.size()),
       frames_(model.attachments.size()),
       motions_(model.couplers.size()) {}
 
@@ -175,10 +175,28 @@ ResidualDerivative::FrameChange ResidualDerivative::change_nodal_frame(
           c_.velocity * moved.tail<3>()};
 }
 
+void ResidualDerivative::find_moved(const VectorX& x) {
+  for (std::size_t b = 0; b < is_moved_.size(); ++b) {
+    is_moved_[b] = 0;
+    for (const UnknownRange& range : list_unknowns(model_, b)) {
+      if (!x.segment(range.row, range.size).isZero(0.0)) is_moved_[b] = 1;
+    }
+  }
+}
+
+bool ResidualDerivative::is_moved(AttachmentIndex attachment) const {
+  const BodyIndex body = model_.attachments[index(attachment)].body;
+  return body != kWorld && is_moved_[index(body)] != 0;
+}
+
 void ResidualDerivative::change_frames(const VectorX& x) {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Attachment& attachment = model_.attachments[i];
     const AttachmentMotion& motion = terms_->attachments[i];
+    if (!is_moved(static_cast<AttachmentIndex>(i))) {
+      frames_[i] = {};
+      continue;
+    }
     frames_[i] = attachment.nodal ? change_nodal_frame(attachment, motion, x)
                                   : change_frame(attachment, motion, x);
   }
@@ -272,6 +290,11 @@ void ResidualDerivative::change_couplers(const VectorX& x, VectorX& r,
   for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
     const Coupler& coupler = model_.couplers[c];
     const CouplerTerms& terms = terms_->couplers[c];
+    if (!is_moved(coupler.frame_F) && !is_moved(coupler.frame_M)) {
+      motions_[c] = {};
+      laws[c].setZero();
+      continue;
+    }
     motions_[c] = relate(coupler, terms);
     change_pair(coupler, terms, motions_[c], terms.applied, Vector6::Zero(), x,
                 r);
@@ -349,76 +372,14 @@ void ResidualDerivative::change_sum(const JointSum& sum,
   law[0] = -terms.response.damping * (d_rate - c_.velocity * d_z);
 }
 
-void ResidualDerivative::change_load(const Load& load, const VectorX& x,
-                                     VectorX& r) const {
-  const Attachment& a = model_.attachments[index(load.where)];
-  if (a.body == kWorld || a.nodal) return;
-  const double factor = evaluate(load.function, now_of(*state_, Side::left));
-  if (factor == 0.0) return;
-  const auto b = index(a.body);
-  const BodyModel& body = model_.bodies[b];
-  const Matrix3& R_WB = terms_->bodies[b].R_WB;
-  const BodyIncrement d(body, x);
-  const Vector3 force = factor * load.force;
-  const Vector3 moment = factor * load.moment;
-  if (is_coupled(body.fidelity)) {
-    if (load.in_world) {
-      change_wrench(load.where, force, moment, Vector3::Zero(), Vector3::Zero(),
-                    x, r);
-    } else {
-      change_wrench(load.where, R_WB * force, R_WB * moment,
-                    R_WB * d.theta.cross(force), R_WB * d.theta.cross(moment),
-                    x, r);
-    }
-    return;
-  }
-  if (!body.has_rigid_motion()) return;
-  if (!load.in_world) {
-    r.segment<3>(body.row) -= R_WB * d.theta.cross(force);
-    return;
-  }
-  const Vector3 d_force_B = -d.theta.cross(R_WB.transpose() * force);
-  const Vector3 d_moment_B = -d.theta.cross(R_WB.transpose() * moment);
-  r.segment<3>(body.row + 3) -= a.p_BF.cross(d_force_B) + d_moment_B;
-  r.segment(body.row + 6, body.modes) -=
-      a.Phi_B.leftCols(body.modes).transpose() * d_force_B +
-      a.Psi_B.leftCols(body.modes).transpose() * d_moment_B;
-}
-
-void ResidualDerivative::change_body_load(const BodyLoad& load,
-                                          const VectorX& x, VectorX& r) const {
-  const auto b = index(load.body);
-  const BodyModel& body = model_.bodies[b];
-  if (!body.has_rigid_motion()) return;
-  const flexbody::NodalLoad& history = load.history;
-  const Eigen::Index i = find_interval(history.times, state_->t, Side::left);
-  if (i < 0) return;
-  const BodyIncrement d(body, x);
-  const Vector3 force = history.force.col(i);
-  r.segment<3>(body.row) -= terms_->bodies[b].R_WB * d.theta.cross(force);
-  if (!is_coupled(body.fidelity)) return;
-  const Eigen::Index first = i * count_coordinates(body);
-  const double* eta = state_->eta.data() + body.offset;
-  Vector3 moment = Vector3::Zero();
-  for (int k = 0; k < body.modes; ++k) {
-    moment += history.moment_by_mode.col(first + k) * d.eta[k];
-  }
-  flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int k,
-                                                  int l, bool is_square) {
-    const double change =
-        is_square ? eta[k] * d.eta[k] : eta[k] * d.eta[l] + eta[l] * d.eta[k];
-    moment += history.moment_by_mode.col(first + body.modes + pair) * change;
-  });
-  r.segment<3>(body.row + 3) -= moment;
-}
-
 void ResidualDerivative::apply_rest(const VectorX& increments,
                                     VectorX& residual,
                                     std::vector<Vector6>& laws) {
   residual.setZero(increments.size());
   laws.resize(model_.couplers.size() + model_.transmissions.size());
+  find_moved(increments);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    change_inertia(b, increments, residual);
+    if (is_moved_[b] != 0) change_inertia(b, increments, residual);
   }
   change_frames(increments);
   change_couplers(increments, residual, laws);

@@ -58,6 +58,10 @@ class ResidualDerivative {
     Vector6 position = Vector6::Zero(), velocity = Vector6::Zero();
   };
 
+  // Bodies that do not move, such as all but one for a unit vector, cost
+  // nothing.
+  void find_moved(const VectorX& x);
+  [[nodiscard]] bool is_moved(AttachmentIndex attachment) const;
   void change_inertia(std::size_t b, const VectorX& x, VectorX& r) const;
   void change_frames(const VectorX& x);
   [[nodiscard]] FrameChange change_frame(const Attachment& attachment,
@@ -94,6 +98,7 @@ class ResidualDerivative {
   const VectorX* acceleration_ = nullptr;
   const VectorX* motion_ = nullptr;
   NewtonMatrix::Coefficients c_;
+  std::vector<char> is_moved_;  // by body
   std::vector<FrameChange> frames_;
   std::vector<MotionChange> motions_;
 };
