@@ -112,8 +112,8 @@ void bind_signals(py::module_& m) {
   py::class_<RampSignal>(
       m, "RampSignal",
       "From one value to another in `duration` [s]: linear, trapezoid (of the "
-      "rate, which rises and falls for the share `rise` of the time) or smooth "
-      "(10 s^3 - 15 s^4 + 6 s^5).")
+      "rate, which rises and falls for the fraction `rise` of the time) or "
+      "smooth (10 s^3 - 15 s^4 + 6 s^5).")
       .def(py::init([](double from, double to, double duration, double start,
                        const std::string& shape, double rise) {
              return RampSignal{from, to, start, duration, parse_ramp(shape),

@@ -288,9 +288,8 @@ TEST(BadInput, TendonOverOnePoint) {
 }
 
 TEST(BadInput, MimicInACircle) {
-  expect_robot_refused(
-      two_joints("continuous", "<mimic joint='j'/>"),
-      "robot.urdf:1: joint 'j': <mimic> goes in a circle (j -> j)");
+  expect_robot_refused(two_joints("continuous", "<mimic joint='j'/>"),
+                       "robot.urdf:1: joint 'j': <mimic> is circular (j -> j)");
 }
 
 TEST(BadInput, HingeWhoseAxisHasNoLength) {
@@ -382,7 +381,7 @@ TEST(BadInput, OfAJointWithoutItsInterfaceNamesThoseThatExist) {
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(
       result.errors,
-      AllOf(HasSubstr("joint 'rooot' holds it at an interface of the "
+      AllOf(HasSubstr("joint 'rooot' is attached to it at an interface of the "
                       "joint's own name"),
             HasSubstr("did you mean 'root'?"), HasSubstr("(known: root, "),
             HasSubstr("<attach joint=\"rooot\"")));

@@ -120,7 +120,7 @@ TEST_F(Linearize, IsAboutTheStateOfARunAtATime) {
 }
 
 TEST_F(Linearize, RefusesWhatItCannotDoInOneClearError) {
-  expect_refused("-o no.csv", "ends in none of .mat");
+  expect_refused("-o no.csv", "does not end in .mat");
   expect_refused("-o no.mat --at later", "about 'later': expected 'start'");
   expect_refused("-o no.mat --at 2", "the run goes from 0 s to 1 s");
   expect_refused("-o no.mat --inputs motor", "unknown input 'motor'");

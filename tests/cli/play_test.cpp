@@ -69,7 +69,7 @@ TEST_F(Play, RefusesFilesThatThePageWouldLack) {
   place_.write("push.txt", "5 1e6 0 0\n");
   write_scene(
       "[[load]]\nname = 'push'\nlink = 'beam'\nnodal_forces = 'push.txt'\n");
-  expect_refused("--play beam.toml", AllOf(HasSubstr("this scene needs more"),
+  expect_refused("--play beam.toml", AllOf(HasSubstr("this scene also needs"),
                                            HasSubstr("push.txt")));
 }
 

@@ -94,7 +94,7 @@ TEST(View, RefusesARunWhosePageIsMissingBeforeItsFirstStep) {
       run_shell(place, "cp '" LIMBER_COMMAND
                        "' own && ./own run beam.toml --out o --view");
   EXPECT_EQ(result.status, 2) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("is not there: looked for"));
+  EXPECT_THAT(result.errors, HasSubstr("was not found; looked for"));
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "o"));
 }
 

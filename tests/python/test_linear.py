@@ -145,6 +145,6 @@ def test_what_it_cannot_do_is_refused_with_the_reason(rotor, words, culprit):
 
 
 def test_a_file_of_no_known_ending_is_refused(rotor, tmp_path):
-    with pytest.raises(limber.InputError, match="ends in none of .mat"):
+    with pytest.raises(limber.InputError, match="does not end in .mat"):
         limber.linearize(rotor).save(tmp_path / "m.csv")
     assert not (tmp_path / "m.csv").exists()

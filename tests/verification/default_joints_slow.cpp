@@ -72,7 +72,7 @@ TEST(DefaultJoints, AreSlowForAnImpactOnlyIfGivenSoAndThenWarn) {
   scene.robot.joints.at(0).coupler.translational_stiffness = 4e7;  // 1 kHz
   EXPECT_THAT(simulate(scene).statistics.warnings,
               ::testing::Contains(::testing::HasSubstr(
-                  "joint 'hinge' is slow beside the impact")));
+                  "joint 'hinge' is slow relative to the impact")));
 }
 
 TEST(DefaultJoints, ThatStoreMoreThanAPercentOfTheEnergyWarn) {
@@ -80,8 +80,9 @@ TEST(DefaultJoints, ThatStoreMoreThanAPercentOfTheEnergyWarn) {
   scene.robot.joints.at(0).coupler.translational_stiffness = 1e8;
   const app::StaticRun run =
       app::find_static(scene, dynamics::EquilibriumMethod::newton, cache(), {});
-  EXPECT_THAT(run.warnings, ::testing::Contains(::testing::HasSubstr(
-                                "joint 'root' is soft beside the bodies")));
+  EXPECT_THAT(run.warnings,
+              ::testing::Contains(::testing::HasSubstr(
+                  "joint 'root' is soft relative to the bodies")));
 }
 
 /// Gives each joint and loop without a stiffness `factor` times its default.

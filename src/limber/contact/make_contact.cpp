@@ -34,12 +34,13 @@ std::shared_ptr<const joints::PairInteraction> make_contact(
   }
   const std::string bare = list_bare_surfaces(A, B);
   if (bare.empty()) {
-    throw InputError("contact: these two shapes cannot touch each other");
+    throw InputError(
+        "contact: contact between these two shapes is not supported");
   }
   throw InputError(fmt::format(
-      "contact: surface {} has no convex parts, so that only balls can touch "
-      "it: divide a flat group with hollows into convex ones, or make the "
-      "saved body anew by 'limber reduce'",
+      "contact: surface {} has no convex parts, so that only spheres can be in "
+      "contact with it: divide a flat group that is not convex into convex "
+      "ones, or reduce the saved body again by 'limber reduce'",
       bare));
 }
 

@@ -118,7 +118,7 @@ void check_torque(const MeshedBody& body, const Matrix3X& load, double torque) {
   if (std::abs(torque) > 1e-12 * size) return;
   throw InputError(fmt::format(
       "{}: the load has no torque about the spin axis ({:.3g} N m), so nothing "
-      "keeps the body turning against friction. Expected one other than 0.",
+      "keeps the body rotating against friction. Expected one other than 0.",
       body.mesh.source, torque));
 }
 

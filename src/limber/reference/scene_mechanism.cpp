@@ -51,11 +51,11 @@ Mobilizer find_mobilizer(JointKind kind) {
 }
 
 [[noreturn]] void refuse(const std::string& who, const char* why) {
-  throw InputError(fmt::format(
-      "{} {}; what is compared are joints, linear springs and viscous friction "
-      "in them, bushings without coupling of translation and rotation, and "
-      "linear springs between points",
-      who, why));
+  throw InputError(
+      fmt::format("{} {}; verify supports only joints, linear springs and "
+                  "viscous friction in them, bushings without coupling of "
+                  "translation and rotation, and linear springs between points",
+                  who, why));
 }
 
 bool is_linear(const joints::SpringCurve::Parameters& curve) {

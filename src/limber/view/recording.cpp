@@ -65,7 +65,7 @@ class RecordingReader {
     const auto version = in_.read_integers("scene/version");
     if (version.size() == 1 && version[0] == results::kSceneryVersion) return;
     fail(fmt::format(
-        "holds what to draw in layout {}, but this version of Limber reads "
+        "holds its drawing data in layout {}, but this version of Limber reads "
         "layout {}. Run the scenario again",
         version.empty() ? 0 : version[0], results::kSceneryVersion));
   }

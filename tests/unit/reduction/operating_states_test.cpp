@@ -217,7 +217,7 @@ TEST(DriftingState, RefusesWhatHasNoSteadySpeed) {
                   return find_drifting_state(body, newtons * across,
                                              {.mass_rate = 1.0});
                 }),
-                AllOf(HasSubstr("centre of drag"), HasSubstr("would turn")));
+                AllOf(HasSubstr("centre of drag"), HasSubstr("would rotate")));
   }
   const MeshedBody held(make_recipe({.is_clamped = true}), {});
   EXPECT_THAT(error_of([&] {

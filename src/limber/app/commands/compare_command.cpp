@@ -69,8 +69,8 @@ ReferenceWish make_wish(const CompareOptions& options) {
 std::optional<Demand> make_demand(const CompareOptions& options) {
   if (options.tolerance.empty() && !options.measure.empty()) {
     throw InputError(
-        "--measure says which error --tolerance applies to; give --tolerance, "
-        "too");
+        "--measure selects the error that --tolerance applies to; give "
+        "--tolerance as well");
   }
   const ErrorMeasure measure =
       parse_error_measure(options.measure.empty() ? "both" : options.measure);
@@ -280,10 +280,10 @@ void add_demand(CLI::App& command, CompareOptions& options) {
 
 void add_compare(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand(
-      "compare",
-      "Simulate a scenario at several levels, bases and steps; measure what "
-      "each costs and gives up");
+  CLI::App* command =
+      app.add_subcommand("compare",
+                         "Simulate a scenario at several levels, bases and "
+                         "steps; measure the cost and the error of each");
   add_scenario(*command, options->scenario);
   add_settings(*command, options->settings);
   add_axes(*command, *options);
@@ -291,8 +291,8 @@ void add_compare(CLI::App& app, Action& action) {
   add_demand(*command, *options);
   command
       ->add_option("--repeat", options->repeats,
-                   "Runs of which the fastest counts (default: as many as last "
-                   "0.2 s)")
+                   "Number of timed runs, of which the fastest counts "
+                   "(default: as many as fit in 0.2 s)")
       ->check(CLI::Range(1, 1000));
   command->add_flag("--keep", options->keep,
                     "Keep the results of every run (default: where levels are "

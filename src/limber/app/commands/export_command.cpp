@@ -39,7 +39,7 @@ void check_data_file(const std::filesystem::path& file,
     return;
   }
   throw InputError(fmt::format(
-      "-o {}: its data, {}, would replace the results; take another name",
+      "-o {}: its data, {}, would replace the results; choose another name",
       file.string(), data.string()));
 }
 

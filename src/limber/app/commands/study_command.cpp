@@ -148,14 +148,16 @@ void run_study_file(const StudyCommandOptions& options) {
 
 void add_study(CLI::App& app, Action& action) {
   const auto options = std::make_shared<StudyCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "study", "Many runs of a scenario with other values, in one table");
+  CLI::App* command =
+      app.add_subcommand("study",
+                         "Run a scenario many times with varied values, with "
+                         "all results in one table");
   command->add_option("study", options->study, "Study file (TOML)");
   command->add_option("--collect", options->collected,
                       "Join results of shards into one file");
-  command->add_option("--shard", options->shard,
-                      "K/N: every N-th run from the K-th on alone, into a file "
-                      "of its own");
+  command->add_option(
+      "--shard", options->shard,
+      "K/N: only every N-th run from the K-th on, into a separate file");
   command
       ->add_option("--jobs", options->jobs,
                    "Runs at a time (default: as many as processors)")
@@ -163,7 +165,7 @@ void add_study(CLI::App& app, Action& action) {
   add_out(*command, options->out, "<study name>");
   add_cache_option(*command, options->cache);
   add_robot_options(*command, options->robots);
-  command->add_flag("--csv", options->csv, "Write the table as CSV, too");
+  command->add_flag("--csv", options->csv, "Also write the table as CSV");
   add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { run_study_file(*options); }; });

@@ -126,10 +126,10 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
   std::vector<std::string> problems;
   for (const Fidelity level : axes.levels) {
     if (level <= reference.level) continue;
-    problems.push_back(fmt::format(
-        "--fidelity: '{}' computes more than the reference, '{}'; choose it by "
-        "--reference",
-        to_string(level), to_string(reference.level)));
+    problems.push_back(
+        fmt::format("--fidelity: '{}' computes more than the reference, '{}'; "
+                    "choose another reference by --reference",
+                    to_string(level), to_string(reference.level)));
   }
   const double shortest = find_shortest_step(axes, scene);
   if (reference.integrator && !reference.step &&
@@ -148,9 +148,9 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
     if (!reference.basis.eigenmodes || count <= *reference.basis.eigenmodes) {
       continue;
     }
-    problems.push_back(
-        fmt::format("--reference-modes: {} are fewer than a compared {}",
-                    *reference.basis.eigenmodes, count));
+    problems.push_back(fmt::format(
+        "--reference-modes: {} are fewer than the {} of a compared run",
+        *reference.basis.eigenmodes, count));
   }
   if (wish.eigenmodes && !reference.basis.eigenmodes) {
     problems.push_back(fmt::format(

@@ -220,7 +220,7 @@ std::optional<std::string> find_imbalance(const dynamics::EnergyDrift& finer,
                                kMuchMore * dynamics::find_open_share(own));
   if (!(open > most)) return std::nullopt;
   return fmt::format(
-      "{:.2g} % of its energy are {} by t = {:.4g} s that nothing accounts for",
+      "energy error: {:.2g} % of its energy is {} by t = {:.4g} s",
       100.0 * open, finer.drift.value < 0.0 ? "lost" : "gained",
       finer.drift.time);
 }

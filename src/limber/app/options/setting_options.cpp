@@ -35,8 +35,8 @@ void add_robot_options(CLI::App& command, SettingOptions& options) {
                   "ROS_PACKAGE_PATH)")
       ->allow_extra_args(false);
   command.add_flag("--repair-inertia", options.repairs_inertia,
-                   "Replace inertias of robots that no mass has by the "
-                   "nearest that one has");
+                   "Replace inertias of robots that no rigid body can have by "
+                   "the nearest that one can have");
 }
 
 namespace {

@@ -123,8 +123,8 @@ std::string describe_stability(const SceneCheck& check) {
         stable, std::ceil(step / (dynamics::kStableShare * stable)));
   }
   return fmt::format(
-      "surely stable up to steps of {:.3g} s only: longer ones "
-      "are divided where they grow",
+      "guaranteed stable only up to steps of {:.3g} s: longer ones are divided "
+      "where the motion grows",
       stable);
 }
 

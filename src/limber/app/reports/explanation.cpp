@@ -188,7 +188,7 @@ std::string describe_next(const RunSummary& run) {
                         i + 1, step.what, step.why);
     ++i;
   }
-  return text.empty() ? "try       nothing that the record suggests\n" : text;
+  return text.empty() ? "try       no suggestions from this record\n" : text;
 }
 
 std::string describe_warnings(const RunSummary& run) {

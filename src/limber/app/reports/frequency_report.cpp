@@ -67,8 +67,7 @@ std::string describe_mode(const FrequencyReport& f,
     add(name_whirl(m));
   }
   if (m.axes_w_W != find_spin(f)) {
-    add(fmt::format("seen from axes that turn at {:.6g} rad/s",
-                    m.axes_w_W.norm()));
+    add(fmt::format("in axes that rotate at {:.6g} rad/s", m.axes_w_W.norm()));
   }
   return text;
 }
@@ -141,7 +140,7 @@ std::string to_text(const FrequencyReport& f, int count) {
   const Vector3 w = find_spin(f);
   if (!w.isZero(0.0)) {
     text += fmt::format(
-        "seen from axes that turn with it, at ({:.6g}, {:.6g}, {:.6g}) rad/s\n",
+        "in axes that rotate with it, at ({:.6g}, {:.6g}, {:.6g}) rad/s\n",
         w.x(), w.y(), w.z());
   }
   text += fmt::format("{:>5}  {:>14}  {:>13}\n", "", "frequency [Hz]",

@@ -86,7 +86,7 @@ void add_end(const RunSummary& run, Weighted& all) {
     all.insert({10.0,
                 {fmt::format("limber run {} --resume --out '{}'",
                              name_scenario(run), run.folder),
-                 "a checkpoint is there, from which the run continues"}});
+                 "there is a checkpoint from which the run can continue"}});
   }
   if (run.end != RunEnd::failed) return;
   add_integrator(run, all);
@@ -98,23 +98,21 @@ void add_end(const RunSummary& run, Weighted& all) {
           fmt::format("the run failed with the tolerance of {:.3g} m",
                       run.tolerance)}});
   } else if (failed != nullptr) {
-    all.insert(
-        {9.0,
-         {fmt::format("--set time.step={:.3g}", failed->shortest),
-          fmt::format("{:.0f} parts of halved steps went through before the "
-                      "failure, the shortest of that length",
-                      failed->count)}});
+    all.insert({9.0,
+                {fmt::format("--set time.step={:.3g}", failed->shortest),
+                 fmt::format("{:.0f} parts of halved steps succeeded before "
+                             "the failure; the shortest had that length",
+                             failed->count)}});
   } else {
     all.insert({9.0,
                 {fmt::format("--set time.step={:.3g}", 0.1 * run.step),
-                 fmt::format("steps of {:.3g} s went through until the one "
-                             "that failed",
+                 fmt::format("steps of {:.3g} s succeeded until one failed",
                              run.step)}});
   }
   all.insert({8.0,
               {fmt::format("limber view '{}'", run.folder),
-               fmt::format("the results until the failure at {:.6g} s are "
-                           "there, and show what moves too far",
+               fmt::format("the results until the failure at {:.6g} s were "
+                           "saved and show what moves too far",
                            run.reached)}});
   all.insert({7.0,
               {"limber check " + name_scenario(run),
@@ -149,7 +147,7 @@ void add_energy(const RunSummary& run, Weighted& all) {
   if (!can_conserve) return;
   all.insert({weight - 0.5,
               {"--set time.integrator=energy-conserving",
-               why + "; that scheme keeps it to round-off"}});
+               why + "; that scheme conserves it to round-off"}});
 }
 
 void add_limits(const RunSummary& run, Weighted& all) {
@@ -166,10 +164,10 @@ void add_limits(const RunSummary& run, Weighted& all) {
     all.insert(
         {2.0 + tolerance,
          {fmt::format("--set time.tolerance={:.3g}", 10.0 * run.tolerance),
-          fmt::format("the tolerance limited {:.0f} % of the steps, "
-                      "most by the motion of '{}'; ten times of it "
-                      "halves their number",
-                      100.0 * tolerance, find_most(run.by_body))}});
+          fmt::format(
+              "the tolerance limited {:.0f} % of the steps, most by the motion "
+              "of '{}'; a tolerance ten times larger halves their number",
+              100.0 * tolerance, find_most(run.by_body))}});
   }
   if (const double marks = share_of(run, "breakpoint"); marks > kMany) {
     all.insert({2.5 + marks,
@@ -247,8 +245,8 @@ void add_time(const RunSummary& run, Weighted& all) {
     all.insert({3.0 + contact,
                 {fmt::format("a primitive <collision> shape for '{}'",
                              run.meshed.front()),
-                 fmt::format("contact took {:.0f} % of the time, and that "
-                             "touches by a mesh",
+                 fmt::format("contact took {:.0f} % of the time, and the "
+                             "contact shape of that link is a mesh",
                              100.0 * contact)}});
   }
   if (const double outputs = share_of_time(run, "outputs"); outputs > kMany) {
@@ -271,12 +269,13 @@ void add_time(const RunSummary& run, Weighted& all) {
   if (run.end == RunEnd::finished && run.tolerance == 0.0 && run.halved == 0 &&
       run.open_share && *run.open_share < kLittleError &&
       share_of(run, "given") > 0.9 && iterations < 3.0) {
-    all.insert({1.0,
-                {fmt::format("--set time.step={:.3g}", 2.0 * run.step),
-                 fmt::format("the energy error is below {:g} of the "
-                             "throughput, and Newton's method takes {:.1f} "
-                             "iterations a step: a longer one may do",
-                             kLittleError, iterations)}});
+    all.insert(
+        {1.0,
+         {fmt::format("--set time.step={:.3g}", 2.0 * run.step),
+          fmt::format(
+              "the energy error is below {:g} of the throughput, and Newton's "
+              "method takes {:.1f} iterations a step: a longer one may suffice",
+              kLittleError, iterations)}});
   }
 }
 

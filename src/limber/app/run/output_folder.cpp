@@ -158,8 +158,9 @@ void remove_folder(const fs::path& folder) {
     OutputFolder(folder).write([](const fs::path&) {});
     fs::remove(folder / kList, error);
   } catch (const InputError& problem) {
-    print_warnings({fmt::format("'{}' is of an earlier command and stays: {}",
-                                folder.string(), problem.what())});
+    print_warnings(
+        {fmt::format("'{}' belongs to an earlier command and is kept: {}",
+                     folder.string(), problem.what())});
     return;
   }
   fs::remove(folder, error);

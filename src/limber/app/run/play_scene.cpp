@@ -121,10 +121,10 @@ void refuse_full(const scene::Scene& scene) {
 }
 
 [[noreturn]] void refuse_needs(const std::string& what) {
-  throw InputError(fmt::format(
-      "a page takes along the scenario, its robots and the meshes of their "
-      "shapes, and this scene needs more: {}",
-      what));
+  throw InputError(
+      fmt::format("a page contains only the scenario, its robots and the "
+                  "meshes of their shapes; this scene also needs: {}",
+                  what));
 }
 
 /// Files of fields on nodes, which are read with a mesh.

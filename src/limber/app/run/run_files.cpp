@@ -22,8 +22,8 @@ std::string describe_open(const runs::Run& run) {
   const dynamics::EnergyDrift& energy = run.record.energy.worst;
   const double share = dynamics::find_open_share(energy);
   if (!(share > dynamics::kToldDrift)) return "";
-  return fmt::format(" ({:.2g} % open at {:.4g} s, most in {})", 100.0 * share,
-                     energy.drift.time, energy.place);
+  return fmt::format(" (energy error {:.2g} % at {:.4g} s, most in {})",
+                     100.0 * share, energy.drift.time, energy.place);
 }
 
 }  // namespace

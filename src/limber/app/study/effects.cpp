@@ -215,7 +215,7 @@ std::string find_missing_effects(const Study& study, std::size_t runs,
 
 std::string describe_doubt(const Study& study, const Effect& effect) {
   if (!effect.samples_needed) return "";
-  return fmt::format("cannot tell with {} samples; about {} may do",
+  return fmt::format("not significant with {} samples; about {} may suffice",
                      study.design.samples, *effect.samples_needed);
 }
 

@@ -266,7 +266,7 @@ class Check {
                             find_order(column) == 0;
       if (has_none) {
         return fmt::format(
-            "'{}' has the unit '{}': an acceleration is that of a place, an "
+            "'{}' has the unit '{}': an acceleration needs a position, an "
             "angle or a velocity",
             column.name, column.unit);
       }

@@ -54,9 +54,9 @@ std::size_t collect_study(const std::vector<std::string>& files,
       const auto differences = find_differences(
           Manifest(record.manifest), Manifest(file.record().manifest));
       if (!differences.empty()) {
-        throw InputError(fmt::format("'{}' is of another study than '{}': {}",
-                                     name, files.front(),
-                                     fmt::join(differences, "; ")));
+        throw InputError(
+            fmt::format("'{}' belongs to another study than '{}': {}", name,
+                        files.front(), fmt::join(differences, "; ")));
       }
     }
     for (StudyRow& row : file.read_rows()) {
@@ -104,10 +104,10 @@ void check_is_unchanged(const std::string& place, const fs::path& cache) {
     return text.starts_with("build of Limber");
   });
   if (differences.empty()) return;
-  throw InputError(
-      fmt::format("'{}' is of another state of '{}': {}; restore what was",
-                  found.file.string(), study.scenario.string(),
-                  fmt::join(differences, "; ")));
+  throw InputError(fmt::format(
+      "'{}' was made from another version of '{}': {}; restore that version",
+      found.file.string(), study.scenario.string(),
+      fmt::join(differences, "; ")));
 }
 
 }  // namespace limber::app

@@ -253,9 +253,10 @@ void StudyFile::check(const StudyRecord& asked) const {
     differences.resize(kMostListed);
     differences.push_back(fmt::format("and {} more", count - kMostListed));
   }
-  refuse(file_, fmt::format("are of another study: {}; move it away, choose "
-                            "another with --out, or restore what was",
-                            fmt::join(differences, "; ")));
+  refuse(file_,
+         fmt::format("belong to another study: {}; move the folder away, "
+                     "choose another with --out, or restore the original input",
+                     fmt::join(differences, "; ")));
 }
 
 std::vector<StudyRow> StudyFile::read_rows() const {
@@ -284,9 +285,10 @@ std::vector<StudyRow> StudyFile::read_rows() const {
     row.error = select.text(i++);
     row.warnings = select.text(i++);
     if (select.text(i++) != digest_of(row)) {
-      refuse(file_, fmt::format("run {} is not as it was written; delete its "
-                                "row, and the study makes it again",
-                                row.run));
+      refuse(file_,
+             fmt::format("run {} was changed after it was written; delete its "
+                         "row, and the study simulates it again",
+                         row.run));
     }
     row.seconds_ready = select.number(i++).value_or(0.0);
     row.seconds = select.number(i++).value_or(0.0);

@@ -149,7 +149,7 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
     return draw_bars(
         folder / "effects.png",
         study.name + ": effects of factors, with intervals of 95 %",
-        {"main", "total", "share of the variance [-]", "[*<0:1.05<*]"},
+        {"main", "total", "fraction of the variance [-]", "[*<0:1.05<*]"},
         make_bars(study, [&](std::size_t f, std::size_t r) {
           return make_effect_bars(findings.effects, f, r);
         }));

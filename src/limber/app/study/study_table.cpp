@@ -86,9 +86,10 @@ std::string describe_correlations(const Study& study,
           study.factors[f].name, study.responses[r].name, found->linear,
           describe(found->linear_interval), found->rank,
           describe(found->rank_interval),
-          found->is_told() ? ""
-                           : fmt::format(": cannot tell from 0 with {} samples",
-                                         found->samples));
+          found->is_told()
+              ? ""
+              : fmt::format(": not distinguishable from 0 with {} samples",
+                            found->samples));
     }
   }
   return text;

@@ -27,12 +27,12 @@ class FlatReader {
  public:
   FlatReader(const std::filesystem::path& file, std::size_t start)
       : file_(file), bytes_(read_input(file, kFlatFile)), at_(start) {
-    if (start > bytes_.size()) fail("is cut short");
+    if (start > bytes_.size()) fail("is truncated");
   }
 
   [[nodiscard]] bool is_at_end() const { return at_ == bytes_.size(); }
   std::string take(std::uint64_t size) {
-    if (size > bytes_.size() - at_) fail("is cut short");
+    if (size > bytes_.size() - at_) fail("is truncated");
     std::string part = bytes_.substr(at_, static_cast<std::size_t>(size));
     at_ += part.size();
     return part;

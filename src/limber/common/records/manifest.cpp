@@ -167,7 +167,7 @@ std::vector<std::string> find_differences(const Manifest& before,
       tell_missing(new_lines.values, path, " is gone");
     }
   }
-  if (texts.empty()) texts.emplace_back("another order of the same things");
+  if (texts.empty()) texts.emplace_back("the same entries in another order");
   return texts;
 }
 

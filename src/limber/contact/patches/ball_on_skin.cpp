@@ -52,7 +52,8 @@ void BallOnSkin::check(int modes_A, int modes_B) const {
   const int own = skin_->mode_count();
   if (own == 0 || own == modes) return;
   throw InputError(fmt::format(
-      "contact: a surface of {} modes is on a body of {}", own, modes));
+      "contact: a surface has {} modes and its body {}; expected as many", own,
+      modes));
 }
 
 Vector3 BallOnSkin::find_centre_W(const PairBodies& bodies) const {

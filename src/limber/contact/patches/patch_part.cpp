@@ -69,9 +69,9 @@ PatchPart::PatchPart(const flexbody::ContactSlice& slice,
 void PatchPart::check(int modes) const {
   if (!is_flexible() || motion_B_.cols() == modes) return;
   if (nodes_ != nullptr && nodes_->least_coordinates() <= modes) return;
-  throw InputError(
-      fmt::format("contact: a surface of {} modes is on a body of {}",
-                  motion_B_.cols(), modes));
+  throw InputError(fmt::format(
+      "contact: a surface has {} modes and its body {}; expected as many",
+      motion_B_.cols(), modes));
 }
 
 Vector6 PatchPart::move(const double* eta) const {

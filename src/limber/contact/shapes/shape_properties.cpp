@@ -51,7 +51,7 @@ void check_kind(const ShapeKind& kind) {
                  [](const HalfSpace&) {},
                  [](const SkinPointer& skin) {
                    if (skin != nullptr) return;
-                   throw InputError("contact: its skin is missing");
+                   throw InputError("contact: its surface is missing");
                  }},
       kind);
 }
@@ -111,8 +111,8 @@ void check_shape(const Shape& shape) {
       shape.X_BS.p.isZero(0.0) && (R - Matrix3::Identity()).isZero(0.0);
   if (std::holds_alternative<SkinPointer>(shape.kind) && !is_at_body) {
     throw InputError(
-        "contact: its skin has a pose of its own; expected that of its body, "
-        "whose frame its nodes are in");
+        "contact: its surface has its own pose; expected that of its body, in "
+        "whose frame its nodes are given");
   }
 }
 

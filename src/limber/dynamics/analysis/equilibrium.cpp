@@ -50,7 +50,7 @@ std::string describe_coupler_rounding(const SystemModel& model,
     if (!(noise > worst)) continue;
     worst = noise;
     text = fmt::format(
-        "Rounding of positions changes the force of coupler '{}' by {:.2g} N, "
+        "Round-off of positions changes the force of coupler '{}' by {:.2g} N, "
         "where {:.3g} N act: it is too stiff to be solved; make it softer",
         model.couplers[c].name, noise, acting);
   }
@@ -229,8 +229,8 @@ Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
                              const Progress& progress) {
   if (!model.pairs.empty()) {
     throw InputError(fmt::format(
-        "pair '{}': equilibria are not found with pairs yet; use couplers, or "
-        "simulate with damping until the motion ends",
+        "pair '{}': static equilibrium with pairs is not supported; use "
+        "couplers, or simulate with damping until the motion ends",
         model.pairs[0].name));
   }
   Equilibrium found;

@@ -182,10 +182,10 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
   }
   if (peaks.relative_turn.value > kLargestTurn ||
       peaks.turn.value > kLargestTurn) {
-    add(fmt::format(
-        "its interfaces turn by {:.2g} rad, relative to one another "
-        "by {:.2g} rad, beyond {:g} rad",
-        peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
+    add(
+        fmt::format("its interfaces rotate by {:.2g} rad, relative to one "
+                    "another by {:.2g} rad, beyond {:g} rad",
+                    peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
   }
   const bool is_stretched =
       !is_negligible(advice.errors.nonlinear, peaks, limits);
@@ -204,8 +204,8 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
         metres(advice.errors.coupled), metres(peaks.total.value)));
   }
   if (advice.level == Fidelity::full) {
-    add(is_stretched ? "only level full is right"
-                     : "only level full is right, or level nonlinear of the "
+    add(is_stretched ? "only level full is valid"
+                     : "only level full is valid, or level nonlinear of the "
                        "link in more pieces");
   }
   return text;
@@ -218,8 +218,8 @@ std::string describe_deformation(const BodyPeaks& peaks,
   const std::string own =
       fmt::format("it deforms by {}", metres(peaks.deformation.value));
   if (errors.rigid <= kFarther * peaks.deformation.value) return own;
-  return fmt::format("{}, which moves what it carries by up to {}", own,
-                     metres(errors.rigid));
+  return fmt::format("{}, which moves the bodies attached to it by up to {}",
+                     own, metres(errors.rigid));
 }
 
 std::string explain(const BodyModel& body, const BodyPeaks& peaks,
@@ -229,11 +229,11 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
   switch (advice.level) {
     case Fidelity::rigid:
       if (body.modes == 0) return "it has no modes";
-      return fmt::format("all that its modes do stays at {}, within {}",
+      return fmt::format("its modes move it by at most {}, within {}",
                          metres(e.rigid), limit);
     case Fidelity::uncoupled:
       if (body.clamped) {
-        return fmt::format("it bends by {}, more than {}; it does not turn",
+        return fmt::format("it bends by {}, more than {}; it does not rotate",
                            metres(e.rigid), limit);
       }
       return fmt::format("{}; rotation changes that by {}, within {}",
@@ -258,9 +258,8 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
       break;
   }
   return fmt::format(
-      "{}, while it turns by {:.2g} rad at up to {:.2g} rad/s: without "
-      "coupling "
-      "the error may reach {}, more than {}",
+      "{}, while it rotates by {:.2g} rad at up to {:.2g} rad/s: without "
+      "coupling the error may reach {}, more than {}",
       describe_deformation(peaks, e), peaks.angle, peaks.Omega.value,
       metres(e.one_way), limit);
 }

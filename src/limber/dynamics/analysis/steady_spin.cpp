@@ -76,15 +76,15 @@ class Spin {
  private:
   void check_model() const {
     if (!model_.pairs.empty()) {
-      throw InputError(fmt::format(
-          "pair '{}': steady rotations are not found with pairs yet",
-          model_.pairs[0].name));
+      throw InputError(
+          fmt::format("pair '{}': steady rotation with pairs is not supported",
+                      model_.pairs[0].name));
     }
     for (const FullModel& full : model_.full_bodies) {
-      throw InputError(fmt::format(
-          "body '{}': steady rotations are not found at level full; take "
-          "nonlinear",
-          model_.bodies[static_cast<std::size_t>(full.body)].name));
+      throw InputError(
+          fmt::format("body '{}': steady rotation is not supported at level "
+                      "full; use nonlinear",
+                      model_.bodies[static_cast<std::size_t>(full.body)].name));
     }
   }
 

@@ -279,7 +279,7 @@ class Placing {
           !(given->second.position.empty() && given->second.velocity.empty())) {
         add(coupler.name,
             "it closes a loop, so its coordinates follow from those of the "
-            "joints before it; leave them out");
+            "preceding joints; leave them out");
       }
       const Gap gap =
           find_gap(std::get<joints::Joint>(coupler.law),
@@ -288,15 +288,15 @@ class Placing {
       if (!(gap.distance <= kClosed * scale.size && gap.turn <= kClosed)) {
         add(coupler.name,
             fmt::format("it closes a loop, and its frames are {:.3g} m and "
-                        "{:.3g} rad from where it holds them; give the joints "
-                        "before it coordinates that close it",
+                        "{:.3g} rad from where they must be; give the "
+                        "preceding joints coordinates that close it",
                         gap.distance, gap.turn));
       } else if (!(gap.speed <= kClosed * scale.speed + scale.rounding &&
                    gap.spin <= kClosed * scale.spin)) {
         add(coupler.name,
-            fmt::format("it closes a loop, and its frames leave where it holds "
-                        "them at {:.3g} m/s and {:.3g} rad/s; give the joints "
-                        "before it rates that keep it closed",
+            fmt::format("it closes a loop, and its frames separate "
+                        "at {:.3g} m/s and {:.3g} rad/s; give the "
+                        "preceding joints rates that keep it closed",
                         gap.speed, gap.spin));
       }
     }

@@ -302,9 +302,9 @@ void ContactStartObserver::check_step(double h, double t) const {
     const double way = observed.rate * h;
     if (way <= kMostWay * observed.law->find_size()) continue;
     throw NumericalError(fmt::format(
-        "contact '{}' at t = {:.9g} s: both approach each other by {:.3g} m in "
-        "a step of {:.3g} s, and could pass through each other; a step of "
-        "{:.2g} s would resolve the impact",
+        "contact '{}' at t = {:.9g} s: the bodies approach each other by "
+        "{:.3g} m in a step of {:.3g} s and could pass through each other; a "
+        "step of {:.2g} s would resolve the impact",
         model_.pairs[observed.pair].name, t, way, h,
         observed.impact_duration / kStepsOfImpact));
   }

@@ -100,19 +100,19 @@ std::string DeflectionObserver::describe(const Hold& hold) const {
   if (hold.give / hold.size >= hold.turn) {
     const double share = hold.give / hold.size;
     return fmt::format(
-        "joint '{}' gives way by {:.3g} m at t = {:.6g} s in constrained "
+        "joint '{}' deflects by {:.3g} m at t = {:.6g} s in constrained "
         "directions, {:.3g} % of the size of body '{}' ({:.3g} m); a "
         "translational stiffness of {:.2g} N/m in place of {:.2g} N/m would "
-        "hold it to 0.1 %",
+        "limit it to 0.1 %",
         joint, hold.give, hold.give_time, 100.0 * share, body, hold.size,
         hold.stiffness.translational * share / kLargest,
         hold.stiffness.translational);
   }
   return fmt::format(
-      "joint '{}' gives way by {:.3g} rad at t = {:.6g} s about constrained "
-      "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a "
-      "rotational stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would "
-      "limit this to 0.1 % of the body's size",
+      "joint '{}' deflects by {:.3g} rad at t = {:.6g} s about constrained "
+      "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a rotational "
+      "stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would limit this "
+      "to 0.1 % of the body's size",
       joint, hold.turn, hold.turn_time, body, hold.size, hold.turn * hold.size,
       hold.stiffness.rotational * hold.turn / kLargest,
       hold.stiffness.rotational);
@@ -120,11 +120,10 @@ std::string DeflectionObserver::describe(const Hold& hold) const {
 
 std::string DeflectionObserver::describe_share(const Hold& hold) const {
   return fmt::format(
-      "joint '{}' is soft beside the bodies: at t = {:.6g} s it stores {:.3g} "
-      "J "
-      "in its constrained directions, {:.3g} % of the elastic energy of the "
-      "bodies connected to it; {:.2g} times its stiffness would keep it at "
-      "{:g} %",
+      "joint '{}' is soft relative to the bodies: at t = {:.6g} s it stores "
+      "{:.3g} J in its constrained directions, {:.3g} % of the elastic energy "
+      "of the bodies connected to it; {:.2g} times its stiffness would keep it "
+      "at {:g} %",
       model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
       100.0 * hold.share(), hold.share() / kLargestShare,
       100.0 * kLargestShare);

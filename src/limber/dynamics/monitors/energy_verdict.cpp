@@ -17,13 +17,12 @@ constexpr double kNamedShare = 0.1;
 std::string describe_energy(const EnergyDrift& energy) {
   const double drift = energy.drift.value;
   std::string text = fmt::format(
-      "{:.3g} J are {} by t = {:.6g} s that nothing accounts for, {:.3g} % of "
-      "the throughput of {:.3g} J",
+      "{:.3g} J {} by t = {:.6g} s, {:.3g} % of the throughput of {:.3g} J",
       std::abs(drift), drift < 0.0 ? "lost" : "gained", energy.drift.time,
       100.0 * find_open_share(energy), energy.throughput);
   if (!energy.place.empty() &&
       std::abs(energy.share) > kNamedShare * std::abs(drift)) {
-    text += fmt::format("; the largest share, {:.3g} J, in {}",
+    text += fmt::format("; the largest part, {:.3g} J, in {}",
                         std::abs(energy.share), energy.place);
   }
   return text;
@@ -35,8 +34,8 @@ bool is_forgiven(IntegratorKind integrator, const EnergyDrift& energy) {
 
 std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
   if (energy.is_one_way) {
-    return "level one-way drives modes by rotation and takes nothing back from "
-           "it; level coupled does";
+    return "level one-way drives modes by rotation without reaction on it; "
+           "level coupled has both";
   }
   const IntegratorTraits& traits = traits_of(integrator);
   if (traits.order == 1 && traits.is_implicit) {
@@ -46,8 +45,8 @@ std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
   }
   if (traits.order == 1) {
     return traits.name +
-           " is of first order, and takes work from the start of a step; take "
-           "shorter steps or another integrator";
+           " is of first order and uses the forces at the start of a step for "
+           "work; take shorter steps or another integrator";
   }
   if (integrator == IntegratorKind::energy_conserving) {
     return "take shorter steps, or generalized-alpha with steps to a tolerance";
@@ -67,7 +66,8 @@ void warn_of_energy(IntegratorKind integrator, const EnergyRecord& record,
                     std::vector<std::string>& warnings) {
   const EnergyDrift& energy = record.worst;
   if (!(find_open_share(energy) > kToldDrift)) return;
-  warnings.push_back(fmt::format("energy: {}; {}", describe_energy(energy),
+  warnings.push_back(fmt::format("energy error: {}; {}",
+                                 describe_energy(energy),
                                  advise(integrator, energy)));
 }
 
@@ -75,7 +75,7 @@ void check_energy(IntegratorKind integrator, const EnergyRecord& record) {
   const EnergyDrift& energy = record.worst;
   if (!(find_open_share(energy) > kMostDrift)) return;
   if (is_forgiven(integrator, energy)) return;
-  throw NumericalError(fmt::format("the energy does not balance: {}; {}",
+  throw NumericalError(fmt::format("the energy does not balance: error {}; {}",
                                    describe_energy(energy),
                                    advise(integrator, energy)));
 }

@@ -240,9 +240,9 @@ void ImpactObserver::add_deep(const std::vector<ContactRecord>& records,
     if (!is_round && !(over_extent > kDeepest)) continue;
     if (!said.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
-        "contact '{}': the impact at t = {:.6g} s is {:.3g} m deep, {:.2g} of "
-        "the {}; Hertz's law is that of small deformation: beyond {:g} do not "
-        "trust its force and energy",
+        "contact '{}': the impact at t = {:.6g} s penetrates by {:.3g} m, "
+        "{:.2g} of the {}; Hertz's law assumes small deformation: beyond {:g} "
+        "its force and energy are not reliable",
         record.pair, record.time, record.peak_depth,
         is_round ? over_radius : over_extent,
         is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
@@ -273,11 +273,11 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
     if (worst.record == nullptr) continue;
     const ImpactEnergy& energy = worst.record->energy;
     warnings.push_back(fmt::format(
-        "contact '{}': in the impact at t = {:.6g} s steps {} {:.3g} J that "
-        "nothing accounts for, {:.3g} % of its {:.3g} J, so that its "
-        "restitution is not kept; {} of {} impacts have more than {:g} %; {}",
-        name, worst.record->time, energy.error < 0.0 ? "lose" : "gain",
-        std::abs(energy.error), 100.0 * energy.open_share(),
+        "contact '{}': energy error in the impact at t = {:.6g} s: {:.3g} J "
+        "{}, {:.3g} % of its {:.3g} J, so that its restitution is not met; {} "
+        "of {} impacts have more than {:g} %; {}",
+        name, worst.record->time, std::abs(energy.error),
+        energy.error < 0.0 ? "lost" : "gained", 100.0 * energy.open_share(),
         std::max(energy.in, energy.returned), worst.open, worst.impacts,
         100.0 * kToldDrift, advise_on_impacts(scheme_)));
   }
@@ -291,9 +291,9 @@ void ImpactObserver::add_unmet(const std::vector<ContactRecord>& records,
     if (!std::isinf(record.impact_duration)) continue;
     if (!said.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
-        "contact '{}': at t = {:.6g} s surfaces meet that do not face each "
-        "other, as where an open one is met from behind: there is no force, "
-        "and both may pass through each other",
+        "contact '{}': at t = {:.6g} s the surfaces in contact do not face "
+        "each other, for example an open surface hit from behind: no force "
+        "acts, and the bodies may pass through each other",
         record.pair, record.time));
   }
 }

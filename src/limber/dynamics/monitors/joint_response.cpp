@@ -73,10 +73,10 @@ std::vector<JointResponse> find_joint_responses(
 std::string describe(const JointResponse& response) {
   const double ratio = JointResponse::kEnough / response.share();
   return fmt::format(
-      "joint '{}' is slow beside the impact of contact '{}': it vibrates at "
-      "{:.4g} Hz and the impact lasts about {:.3g} s, so it does not hold its "
-      "bodies while they strike, and the rebound is wrong; {:.2g} times its "
-      "stiffness would do",
+      "joint '{}' is slow relative to the impact of contact '{}': it vibrates "
+      "at {:.4g} Hz and the impact lasts about {:.3g} s, so it does not "
+      "constrain its bodies during the impact, and the rebound is wrong; "
+      "{:.2g} times its stiffness would suffice",
       response.joint, response.pair, response.frequency, response.duration,
       ratio * ratio);
 }

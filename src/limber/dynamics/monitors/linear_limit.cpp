@@ -95,7 +95,7 @@ const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
   return flexbody::is_linear(elasticity)
              ? "its deformation grows without bound; level full includes the "
                "stiffening of a real body"
-             : "it leaves its undeformed shape; level full tells how far";
+             : "it leaves its undeformed shape; level full shows how far";
 }
 
 // Largest rotation of an interface relative to the mean-axis frame [rad].
@@ -130,7 +130,7 @@ std::optional<std::string> describe_softening(const BodyModel& body,
   if (!(mu >= 1.0)) return std::nullopt;
   const double speed = w_WB_B.norm();
   return fmt::format(
-      "body '{}' turns at {:.4g} rad/s, above its critical speed of {:.4g} "
+      "body '{}' rotates at {:.4g} rad/s, above its critical speed of {:.4g} "
       "rad/s in linear elasticity: its effective stiffness is below zero and "
       "{}",
       body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
@@ -143,8 +143,8 @@ std::optional<std::string> describe_large_turn(const SystemModel& model,
   const double turn = find_turn(model, state, body);
   if (!(turn > kLargeTurn)) return std::nullopt;
   return fmt::format(
-      "body '{}' has bent until an interface turned by {:.3g} rad, where level "
-      "nonlinear holds up to {:g} rad; smaller loads and speeds, pieces or "
+      "body '{}' has bent until an interface rotated by {:.3g} rad; level "
+      "nonlinear is valid up to {:g} rad; smaller loads and speeds, pieces or "
       "level full may help",
       model.bodies[body].name, turn, kLargeTurn);
 }
@@ -194,7 +194,7 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
     const auto soft =
         describe_softening(model, state.bodies[body.index].w_WB_B);
     throw NumericalError(
-        what + ": " + name_limit(model) + " has no answer there" +
+        what + ": " + name_limit(model) + " is not valid there" +
         (soft ? "; " + *soft
               : "; smaller loads, a stiffer body or level full may help"));
   }
@@ -202,14 +202,13 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
   body.was_told_large = true;
   if (is_nonlinear) {
     warnings.push_back(fmt::format(
-        "{}, and turned by {:.3g} rad at an interface: beyond {:g} rad level "
-        "nonlinear is not to be trusted; level full has large deformations",
+        "{}, and rotated by {:.3g} rad at an interface: beyond {:g} rad level "
+        "nonlinear is not reliable; use level full for large deformations",
         what, turn, kLargeTurn));
     return;
   }
   warnings.push_back(what + ": beyond 10 % " + name_limit(model) +
-                     " is not to be trusted; level full has large "
-                     "deformations");
+                     " is not reliable; use level full for large deformations");
 }
 
 bool LinearLimit::may_soften(const SystemState& state, Body& body) const {

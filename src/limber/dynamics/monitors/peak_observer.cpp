@@ -244,7 +244,7 @@ PeakPoint PeakObserver::search(std::size_t scalar, PeakPoints points,
 void PeakObserver::exchange_memory(Archive& archive) {
   archive(samples_, newest_, count_, peaks_, places_);
   if (!is_idle() && peaks_.size() != followed_.courses.size()) {
-    throw InputError("the record is of a run that followed other scalars");
+    throw InputError("the record belongs to a run that observed other scalars");
   }
   if (followed_.motion_observer)
     followed_.motion_observer->exchange_memory(archive);

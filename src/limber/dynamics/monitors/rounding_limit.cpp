@@ -71,7 +71,7 @@ void RoundingLimit::check(const SystemState& state,
   was_told_ = true;
   warnings.push_back(fmt::format(
       "{}: deformations are off by as much, and forces of joints by that times "
-      "their stiffness; an origin near the bodies would help",
+      "their stiffness; move the origin nearer to the bodies",
       describe_rounding(model_, state, rounding)));
 }
 

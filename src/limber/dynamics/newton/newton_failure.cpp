@@ -30,9 +30,8 @@ std::string describe_turn(const NewtonFailure& f) {
   }
   if (!(fastest > kFastTurn)) return {};
   return fmt::format(
-      "body '{}' turns by {:.2g} rad in the step of {:.3g} s; a step of {:.1g} "
-      "s "
-      "follows it",
+      "body '{}' rotates by {:.2g} rad in the step of {:.3g} s; a step of "
+      "{:.1g} s would resolve it",
       f.model.bodies[body].name, fastest, f.step, f.step * kGoodTurn / fastest);
 }
 
@@ -104,8 +103,8 @@ std::string describe(const NewtonFailure& failure, const char* what) {
   if (cause.empty()) cause = describe_mode(failure);
   if (cause.empty()) cause = describe_coupler(failure);
   return fmt::format(
-      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, where {:.3g} m "
-      "may be left): {}",
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
+      "{:.3g} m): {}",
       failure.model.bodies[failure.correction.body].name, failure.end, what,
       failure.correction.value, failure.limit, cause);
 }

@@ -298,7 +298,7 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
   const double t = state.t;
   take_back(state);
   throw NumericalError(fmt::format(
-      "contact '{}' at t = {:.9g} s: both are {:.3g} m deep in each other "
+      "contact '{}' at t = {:.9g} s: the bodies already overlap by {:.3g} m "
       "where their surfaces first face each other, which would add {:.3g} J",
       model_.pairs[touches_.pair_of(index)].name, t, touch.depth,
       touch.energy));
@@ -311,10 +311,10 @@ void EventStepper::check_missed_touch(std::size_t index, SystemState& state) {
   const double t = state.t;
   cut_ = 0;
   take_back(state);
-  throw NumericalError(fmt::format(
-      "contact '{}': a step to t = {:.9g} s ends deep in a touch that {} cuts "
-      "of steps did not reach",
-      model_.pairs[touches_.pair_of(index)].name, t, kMostCut));
+  throw NumericalError(
+      fmt::format("contact '{}': a step to t = {:.9g} s ends within a contact "
+                  "whose beginning was not found by cutting steps {} times",
+                  model_.pairs[touches_.pair_of(index)].name, t, kMostCut));
 }
 
 // Two bodies deep in each other cannot separate in a step.
@@ -324,9 +324,9 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
   const double t = state.t;
   take_back(state);
   throw NumericalError(fmt::format(
-      "contact '{}' at t = {:.9g} s: both were {:.3g} m deep in each other, "
-      "and their surfaces no longer face each other anywhere; a stiffer "
-      "contact or a lower speed would keep them apart",
+      "contact '{}' at t = {:.9g} s: the bodies overlapped by {:.3g} m, and "
+      "their surfaces no longer face each other anywhere; a stiffer contact or "
+      "a lower speed would prevent this",
       model_.pairs[touches_.pair_of(index)].name, t, depth));
 }
 

@@ -141,12 +141,12 @@ std::string describe(const SystemModel& model, const SystemState& state,
                      IntegratorKind scheme, double step, double longest) {
   return fmt::format(
       "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
-      "{:.3g} s, because of body '{}' and what holds it; ",
+      "{:.3g} s, because of body '{}' and its couplers; ",
       to_string(scheme), longest, step / longest, step,
       model.bodies[find_fastest_body(model, state)].name);
 }
 constexpr const char* kAdvice =
-    "ask for a step near that, or take an implicit integrator";
+    "use a step near that, or an implicit integrator";
 
 SimulationSettings limit_central(const SystemModel& model,
                                  const SystemState& state,
@@ -183,8 +183,8 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
   const double taken =
       std::min(longest, std::max(accurate, step / kMostPartsOfStep));
   statistics.warnings.push_back(fmt::format(
-      "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
-      "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
+      "{} is stable up to {:.3g} s at the start, because of body '{}' and its "
+      "couplers: steps of {:.3g} s are divided, into {:.0f} parts",
       to_string(asked.integrator), longest,
       model.bodies[find_fastest_body(model, state)].name, step,
       std::ceil(step / taken * (1.0 - 1e-12))));
@@ -201,7 +201,7 @@ void warn_of_pairs(const SystemModel& model, const SystemState& state,
     if (!terms.pairs.responses[i].points().empty()) continue;
     statistics.warnings.push_back(fmt::format(
         "pair '{}' has no points at the start: its stiffness is not known to "
-        "{}, whose steps may be too long where it gets some",
+        "{}, whose steps may be too long once it has some",
         model.pairs[i].name, to_string(scheme)));
   }
 }

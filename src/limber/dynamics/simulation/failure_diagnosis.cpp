@@ -39,7 +39,7 @@ std::string describe_stability(const SystemModel& model,
   if (integrator == IntegratorKind::splitting) {
     return fmt::format(
         "the step of {:.3g} s may be too long for the couplers, which "
-        "splitting takes explicitly; one of {:.3g} s resolves all motion",
+        "splitting treats explicitly; one of {:.3g} s resolves all motion",
         h, stable);
   }
   return fmt::format(
@@ -63,8 +63,8 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
     const double turn = h * state.bodies[b].w_WB_B.norm();
     if (turn > kMostStepTurn) {
       return fmt::format(
-          "body '{}' turns at {:.4g} rad/s, {:.3g} rad within a step of {:.3g} "
-          "s",
+          "body '{}' rotates at {:.4g} rad/s, {:.3g} rad within a step of "
+          "{:.3g} s",
           model.bodies[b].name, state.bodies[b].w_WB_B.norm(), turn, h);
     }
   }
@@ -200,9 +200,9 @@ std::string find_start_clash(const SystemModel& model, const SystemState& state,
     most = power;
     clash = fmt::format(
         "bodies start with velocities that coupler '{}' does not allow: its "
-        "damper takes {:.3g} W at the start, where their relative motion has "
-        "{:.3g} J; let them start with velocities that fit, or with less "
-        "damping there",
+        "damper dissipates {:.3g} W at the start, and their relative motion "
+        "has {:.3g} J; start with compatible velocities, or with less damping "
+        "there",
         model.couplers[c].name, power, relative);
   }
   return clash;

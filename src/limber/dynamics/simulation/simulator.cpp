@@ -157,7 +157,8 @@ const SimulationStatistics& Simulator::statistics() const {
 }
 
 Checkpoint Simulator::save() {
-  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  refuse_hidden_memory(parts_->model,
+                       "a run must continue identically from a checkpoint");
   Archive archive;
   parts_->limit.exchange_memory(archive);
   std::vector<double> numbers = parts_->loop.save(parts_->state).numbers;
@@ -166,7 +167,8 @@ Checkpoint Simulator::save() {
 }
 
 void Simulator::restore(const Checkpoint& checkpoint) {
-  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  refuse_hidden_memory(parts_->model,
+                       "a run must continue identically from a checkpoint");
   Archive archive(checkpoint.numbers);
   parts_->limit.exchange_memory(archive);
   Checkpoint inner{checkpoint.time, {}};

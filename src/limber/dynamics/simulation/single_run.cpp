@@ -94,9 +94,9 @@ double choose_longest_look(const ExactModes& exact, double start, double end,
   const double least = (end - start) / kMostLooks;
   if (wanted >= least) return wanted;
   warnings.push_back(fmt::format(
-      "modes in closed form are looked at for peaks every {:.2g} s, {:g} times "
-      "in all, where the fastest that moves asks for every {:.2g} s: peaks of "
-      "probes may be low; a shorter time, or fewer modes, would show them",
+      "peaks of modes in closed form are sampled every {:.2g} s, {:g} times in "
+      "all; the fastest mode that moves needs {:.2g} s: peaks of probes may be "
+      "too low; a shorter run or fewer modes would resolve them",
       least, kMostLooks, wanted));
   return least;
 }

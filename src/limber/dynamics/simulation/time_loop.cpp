@@ -190,12 +190,11 @@ void TimeLoop::inspect(const SystemState& state) {
                            ? "a smaller step may help"
                            : "a smaller step or implicit-euler may help";
   fail(state, h_,
-       fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
-                   "most in {}, where the start and the loads account for "
-                   "{:.3g} J; {}",
-                   state.t, excess->stored, find_most_energy(model_, state),
-                   excess->accounted,
-                   is_early && !clash_.empty() ? clash_ : advice));
+       fmt::format(
+           "the motion blows up at t = {:.9g} s: {:.3g} J are stored, most in "
+           "{}, but the start and the loads supplied only {:.3g} J; {}",
+           state.t, excess->stored, find_most_energy(model_, state),
+           excess->accounted, is_early && !clash_.empty() ? clash_ : advice));
 }
 
 // Energies that blow up are the cause of other failures.
@@ -241,9 +240,9 @@ void TimeLoop::tell(RunRecord& record) {
   contacts_.add_warnings(statistics_.warnings);
   if (const auto pair = stepper_.take_excess()) {
     statistics_.warnings.push_back(fmt::format(
-        "contact '{}': a step got 1000 parts for the impacts in it, and its "
-        "rest was taken at once: their restitution may be wrong; take shorter "
-        "steps, softer contacts or fewer impact_steps",
+        "contact '{}': a step was divided into 1000 parts for the impacts in "
+        "it, and its remainder was taken in one: their restitution may be "
+        "wrong; take shorter steps, softer contacts or fewer impact_steps",
         model_.pairs[*pair].name));
   }
 }

@@ -172,8 +172,8 @@ class ToleranceLoop {
     if (course_.pass < kMostPasses) return false;
     statistics_.warnings.push_back(fmt::format(
         "after {} passes positions are still uncertain by {:.3g} m, more than "
-        "the tolerance of {:.3g} m: the motion magnifies small errors; a "
-        "shorter time or a larger tolerance can be held",
+        "the tolerance of {:.3g} m: the motion amplifies small errors; use a "
+        "shorter time or a larger tolerance",
         kMostPasses, course_.estimate, settings_.tolerance));
     return true;
   }

@@ -33,10 +33,10 @@ void check_size(const std::string& what, const std::string& table,
 void check_rate(const std::string& what, const std::string& value,
                 double rate) {
   if (rate >= 0.0 && std::isfinite(rate)) return;
-  throw InputError(fmt::format(
-      "{}: {} is {:g}; expected a finite number, not negative, which would "
-      "feed energy in",
-      what, value, rate));
+  throw InputError(
+      fmt::format("{}: {} is {:g}; expected a finite number >= 0; a negative "
+                  "one would supply energy",
+                  what, value, rate));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void check_level(const std::string& what, const flexbody::ReducedBody& reduced,
   const std::string& gap = reduced.inertia_record.gap;
   if (gap.empty() || fidelity <= Fidelity::uncoupled) return;
   throw InputError(
-      fmt::format("{}: at level {} it cannot be: {}; or choose level uncoupled",
+      fmt::format("{}: level {} is not possible: {}; or choose level uncoupled",
                   what, to_string(fidelity), gap));
 }
 
@@ -260,10 +260,10 @@ void check_pose(const std::string& what, const Pose& pose) {
   const double error =
       (pose.R.transpose() * pose.R - Matrix3::Identity()).norm();
   if (error <= kRotation && pose.R.determinant() > 0.0) return;
-  throw InputError(fmt::format(
-      "{}: its axes are not those of a rotation: R^T R is off the identity by "
-      "{:.3g}, the determinant is {:.6g}",
-      what, error, pose.R.determinant()));
+  throw InputError(
+      fmt::format("{}: its axes are not those of a rotation: R^T R differs "
+                  "from the identity by {:.3g}, the determinant is {:.6g}",
+                  what, error, pose.R.determinant()));
 }
 
 void check_interface(const std::string& what,

@@ -86,7 +86,7 @@ void check_rotation(const InterfaceTable& table,
   if (required.cols() == 0) return;
   throw InputError(fmt::format(
       "interface '{}': {}, so it has no rotation about {} (mesh axes), which "
-      "is required. Take nodes that span a surface, or require no rotation "
+      "is required. Choose nodes that span a surface, or require no rotation "
       "about {}",
       table.name, describe_nodes(table), describe_directions(required),
       required.cols() == 1 ? "that direction" : "them"));

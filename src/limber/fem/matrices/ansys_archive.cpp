@@ -126,16 +126,13 @@ class AnsysReader {
                           echo(text)));
       }
       if (values[3] != 0.0 || values[4] != 0.0 || values[5] != 0.0)
-        scanner_.fail(
-            fmt::format("node {} has turned axes. Expected nodes in "
-                        "the global axes: NROTAT all back before "
-                        "the matrices are written.",
-                        node));
+        scanner_.fail(fmt::format(
+            "node {} has rotated axes. Expected nodes in the global axes: "
+            "NROTAT all back before the matrices are written.",
+            node));
       if (!known_.insert(node).second)
-        scanner_.fail(
-            fmt::format("node {} is there twice. Expected each node "
-                        "once.",
-                        node));
+        scanner_.fail(fmt::format(
+            "node {} is given twice. Expected each node once.", node));
       model_.tags.push_back(node);
       model_.x.emplace_back(values[0], values[1], values[2]);
     }

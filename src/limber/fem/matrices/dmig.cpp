@@ -164,10 +164,9 @@ class DmigReader {
   void begin_matrix(const DmigLine& line, const std::string& name) {
     const auto [found, is_new] = matrices_.try_emplace(name);
     if (!is_new)
-      scanner_.fail(
-          fmt::format("{} is there twice, first on line {}. Expected "
-                      "each matrix once.",
-                      echo(name), found->second.line));
+      scanner_.fail(fmt::format(
+          "{} is given twice, first on line {}. Expected each matrix once.",
+          echo(name), found->second.line));
     DmigMatrix& matrix = found->second;
     matrix.line = scanner_.number();
     long type = 0;

@@ -310,9 +310,10 @@ class FileSetReader {
           all->tags.push_back(model.tags[i]);
           all->x.push_back(model.x[i]);
         } else if (place->second != model.x[i]) {
-          throw InputError(fmt::format(
-              "{}: GRID {} is elsewhere than in {}. Expected one position.",
-              file.string(), model.tags[i], all->file.string()));
+          throw InputError(
+              fmt::format("{}: GRID {} has another position than in {}. "
+                          "Expected one position.",
+                          file.string(), model.tags[i], all->file.string()));
         }
       }
       all->elements.insert(all->elements.end(), model.elements.begin(),

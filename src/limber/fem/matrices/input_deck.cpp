@@ -150,10 +150,9 @@ class InputDeckReader {
     const long node = read_number(fields[0], "node");
     const auto [found, is_new] = lines_.try_emplace(node, scanner_->number());
     if (!is_new)
-      scanner_->fail(
-          fmt::format("node {} is there twice, first on line {}. "
-                      "Expected each node once.",
-                      node, found->second));
+      scanner_->fail(fmt::format(
+          "node {} is given twice, first on line {}. Expected each node once.",
+          node, found->second));
     Vector3 x = Vector3::Zero();
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
       x[static_cast<Eigen::Index>(i)] = read_real(fields[i + 1]);

@@ -159,10 +159,9 @@ class NodeTableReader {
     const long node = read_node(scanner_, at(columns_[0]));
     const auto [found, is_new] = lines_.try_emplace(node, scanner_.number());
     if (!is_new)
-      scanner_.fail(
-          fmt::format("node {} is there twice, first on line {}. "
-                      "Expected each node once.",
-                      node, found->second));
+      scanner_.fail(fmt::format(
+          "node {} is given twice, first on line {}. Expected each node once.",
+          node, found->second));
     Vector3 x;
     for (int i = 0; i < 3; ++i)
       x[i] = read_coordinate(scanner_,
@@ -171,11 +170,10 @@ class NodeTableReader {
       for (std::size_t i = static_cast<std::size_t>(angles_); i < fields.size();
            ++i)
         if (read_coordinate(scanner_, fields[i]) != 0.0)
-          scanner_.fail(
-              fmt::format("node {} has turned axes ({}). Expected "
-                          "nodes in the global axes: NROTAT all "
-                          "back before the matrices are written.",
-                          node, echo(fields[i])));
+          scanner_.fail(fmt::format(
+              "node {} has rotated axes ({}). Expected nodes in the global "
+              "axes: NROTAT all back before the matrices are written.",
+              node, echo(fields[i])));
     model_.tags.push_back(node);
     model_.x.push_back(x);
     model_.components.push_back(
@@ -206,10 +204,9 @@ class RowTableMaker {
       lines_.resize(at + 1, 0);
     }
     if (lines_[at] != 0)
-      scanner.fail(
-          fmt::format("row {} is there twice, first on line {}. "
-                      "Expected each row once.",
-                      row, lines_[at]));
+      scanner.fail(fmt::format(
+          "row {} is given twice, first on line {}. Expected each row once.",
+          row, lines_[at]));
     labels_[at] = label;
     lines_[at] = scanner.number();
   }

@@ -76,10 +76,10 @@ class ModelMaker {
   /// Abaqus writes rows in the axes of *TRANSFORM, CalculiX in the global ones.
   void check_axes() const {
     if (!set_.is_calculix && set_.deck && set_.deck->has_transform)
-      throw InputError(fmt::format(
-          "{}: *TRANSFORM turns the axes of rows. Expected none: remove it "
-          "before the matrices are written.",
-          set_.deck->model.file.string()));
+      throw InputError(
+          fmt::format("{}: *TRANSFORM rotates the axes of rows. Expected none: "
+                      "remove it before the matrices are written.",
+                      set_.deck->model.file.string()));
   }
 
   void label_matrices() {

@@ -42,7 +42,7 @@ void check_unit_row(const SourceMatrix& recovery, const RecoveryRows& entries,
   departure = std::max(departure, largest);
   if (departure <= kRounding) return;
   throw InputError(fmt::format(
-      "{}: row {} recovers {}, which is row {} of the matrices, and departs "
+      "{}: row {} recovers {}, which is row {} of the matrices, and differs "
       "from it by {:.3g}. Expected columns in the order of the matrices' rows.",
       recovery.matrix.file, row + 1,
       name_row(recovery.labels[static_cast<std::size_t>(row)]), own + 1,
@@ -113,11 +113,11 @@ std::map<long, Vector3> list_points(const FileSet& set) {
     if (found == points.end() ||
         (found->second - set.nodes->x[i]).norm() <= kSame * size)
       continue;
-    throw InputError(fmt::format(
-        "{}: point {} is elsewhere than node {} in {}. Expected one place, or "
-        "another number.",
-        set.points->file.string(), found->first, found->first,
-        set.nodes->file.string()));
+    throw InputError(
+        fmt::format("{}: point {} is not at the position of node {} in {}. "
+                    "Expected one place, or another number.",
+                    set.points->file.string(), found->first, found->first,
+                    set.nodes->file.string()));
   }
   return points;
 }

@@ -52,17 +52,17 @@ void take_second_moments(FileSet& set, MatrixModel& model) {
     const int i = find_second_moment(file);
     auto& moment = model.moments[static_cast<std::size_t>(i)];
     if (moment.rows() > 0)
-      throw InputError(fmt::format("{}: {} is there twice. Expected one file.",
+      throw InputError(fmt::format("{}: {} is given twice. Expected one file.",
                                    file, source.name));
     moment = std::move(entries);
     ++count;
   }
   if (count == 0) return;
   if (count != model.moments.size())
-    throw InputError(fmt::format(
-        "{}: {} of six second moments of the mass are there. Expected S_xx, "
-        "S_yy, S_zz, S_xy, S_xz and S_yz, or none.",
-        file, count));
+    throw InputError(
+        fmt::format("{}: {} of six second moments of the mass are given. "
+                    "Expected S_xx, S_yy, S_zz, S_xy, S_xz and S_yz, or none.",
+                    file, count));
   check_sum(model, file);
 }
 

@@ -32,7 +32,7 @@ Eigen::Index count_elastic(const ElasticInverse& inverse) {
 [[noreturn]] void refuse_count(Eigen::Index count, Eigen::Index dofs,
                                Eigen::Index elastic) {
   throw InputError(fmt::format(
-      "{} eigenmodes asked for, but the mesh has {} free degrees of freedom "
+      "{} eigenmodes requested, but the mesh has {} free degrees of freedom "
       "and so only {} elastic modes. Ask for fewer or refine the mesh.",
       count, dofs, elastic));
 }

@@ -147,7 +147,7 @@ std::optional<SelectionRecord> read_selection(const BodyFileReader& reader) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (asked_counts[i] > asked.size() - at)
-      reader.fail("'selection/case_modes' is cut short");
+      reader.fail("'selection/case_modes' is truncated");
     const auto row = static_cast<Eigen::Index>(i);
     SelectedCase item{
         names[i], {}, figures(row, 0), figures(row, 1), figures(row, 2)};

@@ -112,10 +112,10 @@ ModeSelection select_modes(const MatrixX& shares, const VectorX& totals,
   LIMBER_EXPECT((shares.array() >= 0.0).all());
   LIMBER_EXPECT((totals.array() >= 0.0).all());
   if (!(options.threshold >= 0.0 && options.threshold <= 1.0))
-    throw InputError(fmt::format(
-        "mode selection: the threshold is {:g}; it is a share of the whole, "
-        "from 0 to 1 (0.9 is 90 %).",
-        options.threshold));
+    throw InputError(
+        fmt::format("mode selection: the threshold is {:g}; it is a fraction "
+                    "of the whole, from 0 to 1 (0.9 is 90 %).",
+                    options.threshold));
   ModeSelection selection;
   std::set<int> joined;
   for (Eigen::Index k = 0; k < totals.size(); ++k) {

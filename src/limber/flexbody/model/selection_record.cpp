@@ -45,8 +45,9 @@ std::vector<std::string> describe_shortfalls(const SelectionRecord& record) {
   for (std::size_t i = 0; i < std::min(kMost, missed.size()); ++i)
     texts.push_back(describe(*missed[i], record));
   if (missed.size() > kMost)
-    texts.push_back(fmt::format("automatic modes: nor {} further load cases",
-                                missed.size() - kMost));
+    texts.push_back(
+        fmt::format("automatic modes: the same holds for {} further load cases",
+                    missed.size() - kMost));
   return texts;
 }
 

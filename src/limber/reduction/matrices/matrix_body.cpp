@@ -64,8 +64,9 @@ std::vector<int> find_clamped_rows(const MatrixSystem& system,
       led.erase(system.rows[static_cast<std::size_t>(row)].node);
     if (!led.empty())
       throw InputError(fmt::format(
-          "{}: the clamped {} would be held, but rigid elements or means lead "
-          "it. Expected the nodes that lead, which hold those that they lead.",
+          "{}: the clamped {} is a dependent node of rigid elements or means. "
+          "Expected the independent nodes, whose clamping also holds the "
+          "dependent ones.",
           system.source, system.name_nodes({led.begin(), led.end()})));
   }
   if (!nodes.empty() && rows.empty())

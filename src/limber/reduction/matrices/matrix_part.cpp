@@ -119,7 +119,7 @@ void check_rigid_stiffness(const MatrixX& X, double lambda,
   }
   if (worst < kSilent) return;
   const std::string text = fmt::format(
-      "{}: {} of the whole body meets {:.2g} times the stiffness of the first "
+      "{}: {} of the whole body has {:.2g} times the stiffness of the first "
       "mode, where a free body has none",
       system.source, kMotions[motion], worst);
   if (worst < kAllowed) {

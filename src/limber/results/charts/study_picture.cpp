@@ -251,7 +251,7 @@ std::string draw_distributions(
     set_axis(script, "x", {curve.response, curve.values}, true);
     script.add("set yrange [0:1]");
     script.add("set ytics 0.25");
-    script.add("set ylabel 'share of samples below [-]'");
+    script.add("set ylabel 'fraction of samples below [-]'");
     script.add(fmt::format("$c{} << EOD", r));
     const auto n = static_cast<double>(curve.values.size());
     for (std::size_t i = 0; i < curve.values.size(); ++i) {

@@ -101,9 +101,9 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
   if (damping.rayleigh_mass > 0.0 && !plan.reduced->clamped) {
     throw InputError(fmt::format(
         "link '{}': rayleigh_mass would damp its motion relative to its own "
-        "moving frame, not to what holds it, so that little of it is left in "
-        "the modes of the arm; only a link with a <clamp> takes it. Give a "
-        "ratio or a loss_factor",
+        "moving frame, not relative to its supports, so that it hardly damps "
+        "the modes of the arm; it is allowed only for a link with a <clamp>. "
+        "Give a ratio or a loss_factor",
         link.name));
   }
   if (plan.full) {
@@ -198,8 +198,8 @@ void Assembly::check_moment(const LoadSpec& load,
                    joints::rotation_about(R_WL.transpose() * load.moment));
   } else {
     with_context(
-        "its moment is fixed in the world, so it comes about every direction "
-        "of a link that turns",
+        "its moment is fixed in the world, so it acts about every direction of "
+        "a link that rotates",
         [&] { check_rotation(site, Matrix3::Identity()); });
   }
 }
@@ -290,10 +290,11 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec,
   int at = piece.value_or(0);
   if (!piece && pieces.size() > 1) {
     if (place.interface.empty()) {
-      throw InputError(fmt::format(
-          "it is cut into {} pieces, which are a body each; say where, or ask "
-          "for '[output] stress = true', which tells the largest of each",
-          pieces.size()));
+      throw InputError(
+          fmt::format("it is cut into {} pieces, which are separate bodies; "
+                      "select a location, or set '[output] stress = true', "
+                      "which reports the largest of each",
+                      pieces.size()));
     }
     at = find_piece(pieces, spec.where);
   }

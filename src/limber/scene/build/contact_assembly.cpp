@@ -88,7 +88,7 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
   if (surface.Phi_B.cols() < columns) {
     throw InputError(fmt::format(
         "surface '{}' of its saved body has no second order, which level "
-        "nonlinear needs; make that anew by 'limber reduce --second-order'",
+        "nonlinear needs; reduce it again by 'limber reduce --second-order'",
         surface.name));
   }
   surface.Phi_B.conservativeResize(Eigen::NoChange, columns);
@@ -138,8 +138,8 @@ std::optional<std::string> describe_error(
       surface.x_B.rowwise().maxCoeff() - surface.x_B.rowwise().minCoeff();
   if (error <= kClose * extent.norm()) return {};
   return fmt::format(
-      "contact of '{}', surface '{}': the convex shapes that stand for it are "
-      "up to {:.2g} m from it; contacts begin where these touch",
+      "contact of '{}', surface '{}': the convex shapes that represent it "
+      "deviate from it by up to {:.2g} m; contact begins at these shapes",
       name, surface.name, error);
 }
 

@@ -112,7 +112,7 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
     if (plan.piece_count > 1) {
       throw InputError(fmt::format(
           "joint '{}': damping of a floating link in pieces would act on its "
-          "first piece alone; leave link '{}' in one piece",
+          "first piece only; leave link '{}' in one piece",
           joint.name, scene_.robot.links[index(link)].name));
     }
     return sites_.find_site(link, X_LF, {});
@@ -336,8 +336,8 @@ void CouplerAssembly::check_start(const Gear& gear) {
                      std::abs(gear.offset);
   if (std::abs(excess) <= kStretched * sum) return;
   warnings_.push_back(fmt::format(
-      "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, "
-      "and joint '{}' asks for {:g}",
+      "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, and joint "
+      "'{}' requires {:g}",
       gear.name, excess, gear.joint, place(joint->second), gear.with, needed));
 }
 

@@ -77,10 +77,10 @@ class Checker {
     const auto check = [&](const char* kind, const auto& all) {
       for (const auto& one : all) {
         if (taken.insert(one.name).second) continue;
-        problems_.add(0, fmt::format("{} '{}' is called like another link, "
-                                     "robot, projectile or obstacle; rename "
-                                     "it",
-                                     kind, one.name));
+        problems_.add(0,
+                      fmt::format("{} '{}' has the same name as another link, "
+                                  "robot, projectile or obstacle; rename it",
+                                  kind, one.name));
       }
     };
     check("projectile", scenario_.projectiles);
@@ -193,7 +193,7 @@ class Checker {
     if (probe.quantity == Quantity::deformation) {
       problems_.add(0, who +
                            ": 'deformation' is relative to the link's own mean "
-                           "axes; ask for 'displacement' with 'relative_to'");
+                           "axes; use 'displacement' with 'relative_to'");
     }
   }
 

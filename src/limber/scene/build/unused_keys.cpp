@@ -77,10 +77,10 @@ class Finder {
         fmt::format("the integrator is {}", dynamics::to_string(kind));
     const dynamics::IntegratorTraits& traits = dynamics::traits_of(kind);
     if (!traits.has_spectral_radius) {
-      tell("time", "rho_inf", it_is + "; generalized-alpha alone has it");
+      tell("time", "rho_inf", it_is + "; only generalized-alpha has it");
     }
     if (!traits.is_implicit) {
-      const std::string why = it_is + ", which solves nothing by Newton";
+      const std::string why = it_is + ", which does not use Newton's method";
       tell("time", "newton_tolerance", why);
       tell("time", "newton_iterations", why);
     }
@@ -88,7 +88,7 @@ class Finder {
       tell("time", "impact_steps", "there is no contact");
     }
     if (time.tolerance == 0.0) {
-      tell("time", "most_steps", "it limits steps to a tolerance alone");
+      tell("time", "most_steps", "it applies only to steps by a tolerance");
     }
     if (!traits.takes_exact_modes && time.exact_modes) {
       tell("time", "exact_modes", it_is + ", which has no closed form");

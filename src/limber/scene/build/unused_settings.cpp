@@ -98,7 +98,7 @@ class JointJudge {
   [[nodiscard]] std::string judge_friction(std::optional<double> value) const {
     const auto* friction = find_action<joints::Friction::Parameters>(joint_);
     if (friction == nullptr || friction->coulomb == value) return "";
-    return "the <friction> of its <coupler> is in its place";
+    return "the <friction> of its <coupler> replaces it";
   }
 
   [[nodiscard]] std::string judge_damping(std::optional<double> value) const {

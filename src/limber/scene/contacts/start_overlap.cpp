@@ -35,16 +35,16 @@ joints::PairTouch find_touch(const PlacedPair& placed,
 std::string refuse(const PlacedPair& pair, const joints::PairTouch& overlap) {
   const Vector3& p = overlap.p_W;
   return fmt::format(
-      "contact '{}': both overlap by {:.3g} m at the start, at ({:.4g}, "
-      "{:.4g}, {:.4g}) m in the world; up to {:.2g} m is taken as touching "
+      "contact '{}': the bodies overlap by {:.3g} m at the start, at ({:.4g}, "
+      "{:.4g}, {:.4g}) m in the world; up to {:.2g} m counts as touching "
       "there: move them apart, or leave this pair out",
       pair.name, overlap.depth, p.x(), p.y(), p.z(), pair.most_overlap);
 }
 
 std::string refuse_enclosed(const PlacedPair& pair) {
   return fmt::format(
-      "contact '{}': one lies within the other at the start, where nothing "
-      "presses them apart: move them apart, or leave this pair out",
+      "contact '{}': one body lies within the other at the start, where no "
+      "force separates them: move them apart, or leave this pair out",
       pair.name);
 }
 
@@ -57,8 +57,8 @@ std::string tell(const PlacedPair& placed, double depth,
   const joints::TouchReading reading =
       pair.law->touching()->read(bodies, EvaluationTime{}, memory, scratch);
   return fmt::format(
-      "contact '{}': both overlap by {:.3g} m at the start, which presses them "
-      "apart with {:.4g} N and stores {:.3g} J",
+      "contact '{}': the bodies overlap by {:.3g} m at the start, which pushes "
+      "them apart with {:.4g} N and stores {:.3g} J",
       placed.name, depth, reading.normal_force, reading.energy);
 }
 

@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 using dynamics::AttachmentIndex;
 
 const char* const kNotSmooth =
-    "what bodies exert where they touch comes and goes, and has no derivative";
+    "contact forces begin and end, and have no derivative";
 
 dynamics::Attachment attach(const PointProbe& point,
                             const dynamics::SystemModel& model,

@@ -60,11 +60,11 @@ void warn_of_switches(const dynamics::SystemModel& model,
     }
   }
   if (names.empty()) return;
-  warnings.push_back(fmt::format(
-      "{} can switch or rub (end stops, slack, latches, friction): the model "
-      "has them as they are at the reference, friction as a damper, and holds "
-      "only as long",
-      fmt::join(names, ", ")));
+  warnings.push_back(
+      fmt::format("{} can switch or rub (end stops, slack, latches, friction): "
+                  "the model has them as they are at the reference, friction "
+                  "as a damper, and is valid only as long",
+                  fmt::join(names, ", ")));
 }
 
 void warn_of_inputs(const dynamics::SystemModel& model,

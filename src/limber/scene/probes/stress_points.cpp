@@ -177,13 +177,13 @@ bool leave_out_stress(Scenario& scenario) {
 void require_stress(const ReducedBody& body, Fidelity level) {
   if (!body.stress) {
     throw InputError(
-        "stress is asked for, but its saved body has no stress modes; make "
-        "that anew by 'limber reduce --stress'");
+        "stress is asked for, but its saved body has no stress modes; reduce "
+        "it again by 'limber reduce --stress'");
   }
   if (body.stress->Sigma_B.cols() >= count_columns(body, level)) return;
   throw InputError(
       "stress is asked for at level nonlinear, but its saved body has only "
-      "that of linear modes; make that anew by 'limber reduce --second-order "
+      "that of linear modes; reduce it again by 'limber reduce --second-order "
       "--stress'");
 }
 

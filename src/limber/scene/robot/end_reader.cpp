@@ -34,7 +34,7 @@ ConnectorEnd read_end(XmlElement& element) {
   end.where = read_place(element);
   if (element.has("rpy")) {
     (void)element.vector("rpy");
-    element.fail("'rpy' would turn nothing here; leave it out");
+    element.fail("'rpy' has no effect here; leave it out");
   }
   return end;
 }

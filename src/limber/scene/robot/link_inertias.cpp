@@ -87,11 +87,11 @@ void repair_inertias(Robot& robot) {
     if (!link.inertia || link.flexible) continue;
     const auto nearest = find_nearest_inertia(link.inertia->inertia);
     if (!nearest) continue;
-    robot.warnings.push_back(fmt::format(
-        "{}: link '{}': no mass has its inertia; it is repaired, in the "
-        "link's axes, from {} to {} kg m^2",
-        link.inertia->place, link.name, describe(link.inertia->inertia),
-        describe(*nearest)));
+    robot.warnings.push_back(
+        fmt::format("{}: link '{}': its inertia is physically impossible; it "
+                    "is repaired, in the link's axes, from {} to {} kg m^2",
+                    link.inertia->place, link.name,
+                    describe(link.inertia->inertia), describe(*nearest)));
     link.inertia->inertia = *nearest;
   }
 }

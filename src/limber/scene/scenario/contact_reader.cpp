@@ -56,7 +56,7 @@ void check_friction(const TomlTable& table, const ContactOptions& options) {
   const double sliding = options.friction.value_or(0.0);
   if (!options.static_friction || *options.static_friction >= sliding) return;
   table.fail(fmt::format(
-      "static_friction is {}, less than friction, {}; it is at least that",
+      "static_friction is {}, less than friction, {}; expected at least that",
       *options.static_friction, sliding));
 }
 
@@ -108,11 +108,11 @@ void tell_least_restitution(Scenario& scenario) {
         return o.restitution.value_or(1.0) < kLeastRestitution;
       });
   if (numbers.empty()) return;
-  scenario.warnings.push_back(
-      fmt::format("'restitution' of [[contact]] {} is below {}, and acts as "
-                  "that: the bodies part with {:.2g} % of their energy",
-                  fmt::join(numbers, ", "), kLeastRestitution,
-                  100.0 * kLeastRestitution * kLeastRestitution));
+  scenario.warnings.push_back(fmt::format(
+      "'restitution' of [[contact]] {} is below {} and acts as that value: the "
+      "bodies separate with {:.2g} % of their energy",
+      fmt::join(numbers, ", "), kLeastRestitution,
+      100.0 * kLeastRestitution * kLeastRestitution));
 }
 
 }  // namespace

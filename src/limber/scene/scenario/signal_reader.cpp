@@ -30,7 +30,7 @@ Base read_ramp(TomlTable& table, const SignalContext& /*context*/) {
   const Range share{0.0, 0.5, true, false};
   ramp.rise = table.number("rise", share).value_or(ramp.rise);
   if (table.has("rise") && ramp.shape != RampShape::trapezoid) {
-    table.fail("rise", "is of shape 'trapezoid' alone");
+    table.fail("rise", "applies only to shape 'trapezoid'");
   }
   return ramp;
 }

@@ -170,8 +170,10 @@ TEST(ComparisonPlan, RefusesAReferenceThatLeavesOutWhatARunComputes) {
   EXPECT_THAT(error_of(axes, {Fidelity::rigid, {}, {}}),
               HasSubstr("--fidelity: 'coupled' computes more"));
   axes.eigenmodes = {10};
-  EXPECT_THAT(error_of(axes, {Fidelity::coupled, 5, {}}),
-              HasSubstr("--reference-modes: 5 are fewer than a compared 10"));
+  EXPECT_THAT(
+      error_of(axes, {Fidelity::coupled, 5, {}}),
+      HasSubstr(
+          "--reference-modes: 5 are fewer than the 10 of a compared run"));
   EXPECT_THAT(error_of(axes, {Fidelity::coupled, {}, 2e-3}),
               HasSubstr("--reference-step: 0.002 s is longer"));
 }

@@ -112,9 +112,9 @@ TEST(Effects, AreNotToldOfTooFewSamples) {
     const Effects effects = find(done);
     for (std::size_t f = 0; f < 3; ++f) {
       if (!effects[f][0]) continue;
-      EXPECT_THAT(
-          describe_doubt(done.study, *effects[f][0]),
-          HasSubstr("cannot tell with " + std::to_string(samples) + " samples"))
+      EXPECT_THAT(describe_doubt(done.study, *effects[f][0]),
+                  HasSubstr("not significant with " + std::to_string(samples) +
+                            " samples"))
           << f;
       EXPECT_GE(*effects[f][0]->samples_needed, 32U);
     }

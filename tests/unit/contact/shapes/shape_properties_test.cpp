@@ -46,7 +46,7 @@ TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
                  "ellipsoid's radius [m] is -1");
   expect_refused({Cylinder{1.0, -2.0}, {}}, "cylinder's half length");
   expect_refused({Box{{1.0, 0.0, 1.0}}, {}}, "box's half size [m] is 0");
-  expect_refused({std::shared_ptr<const Skin>(), {}}, "skin is missing");
+  expect_refused({std::shared_ptr<const Skin>(), {}}, "surface is missing");
   expect_refused({HalfSpace{}, {2.0 * Matrix3::Identity(), Vector3::Zero()}},
                  "pose of its half space");
   expect_refused({HalfSpace{}, {-Matrix3::Identity(), Vector3::Zero()}},
@@ -54,7 +54,7 @@ TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
   expect_refused({Sphere{1.0}, {Matrix3::Identity(), Vector3(0, 0, kInf)}},
                  "pose of its sphere");
   expect_refused({make_skin(), {Matrix3::Identity(), Vector3(0, 0, 1)}},
-                 "skin has a pose of its own");
+                 "surface has its own pose");
 }
 
 TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {

@@ -141,7 +141,7 @@ TEST_F(Sampled, HiddenMemoryIsRefusedWhereARunMustBeRepeated) {
   EXPECT_NO_THROW(run_again());
   settings.passes = TolerancePasses::verified;
   EXPECT_THAT(run_again,
-              ThrowsMessage<InputError>(HasSubstr("takes several passes")));
+              ThrowsMessage<InputError>(HasSubstr("needs several passes")));
 }
 
 TEST_F(Sampled, BadControllersAreRefused) {

@@ -56,14 +56,14 @@ class OverpoweredJoint : public ::testing::Test {
 TEST_F(OverpoweredJoint, IsNamedWhereItsConstrainedAxesAreTurned) {
   // The chord 2 sin(0.3) of 0.6 rad is more than 0.5.
   EXPECT_THAT(find_cause_at(Vector3::Zero(), {0.6, 0.0, 0.0}),
-              AllOf(HasSubstr("joint 'hinge' gives way by 0.591 rad"),
+              AllOf(HasSubstr("joint 'hinge' deflects by 0.591 rad"),
                     HasSubstr("the loads are stronger than this joint")));
   EXPECT_THAT(find_cause_at(Vector3::Zero(), {0.4, 0.0, 0.0}), IsEmpty());
 }
 
 TEST_F(OverpoweredJoint, IsNamedWhereItsBodiesAreApart) {
   EXPECT_THAT(find_cause_at({0.0, 0.15, 0.0}, Vector3::Zero()),
-              AllOf(HasSubstr("joint 'hinge' gives way by 0.15 m"),
+              AllOf(HasSubstr("joint 'hinge' deflects by 0.15 m"),
                     HasSubstr("the loads are stronger than this joint")));
   EXPECT_THAT(find_cause_at({0.0, 0.05, 0.0}, Vector3::Zero()), IsEmpty());
 }

@@ -248,7 +248,7 @@ TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
     const auto told = describe_large_turn(arm.model, state, 0);
     EXPECT_EQ(told.has_value(), turn > 0.4) << turn;
     if (turn > 0.4) {
-      EXPECT_THAT(*told, HasSubstr(fmt::format("turned by {:.3g} rad", turn)));
+      EXPECT_THAT(*told, HasSubstr(fmt::format("rotated by {:.3g} rad", turn)));
     }
     ++(turn > 0.4 ? far : near);
     if (turn > 2.0) break;

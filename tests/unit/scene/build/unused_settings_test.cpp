@@ -90,7 +90,7 @@ TEST_F(SettingOfARobot, ThatACouplerReplacesIsTold) {
   expect_unused("robot.joint.extended.limit.lower=-0.5",
                 "the <stop> of its <coupler> has its own");
   expect_unused("robot.joint.extended.dynamics.friction=0.5",
-                "the <friction> of its <coupler> is in its place");
+                "the <friction> of its <coupler> replaces it");
   expect_unused("robot.joint.extended.dynamics.damping=0.5",
                 "its <coupler> has its own free_damping");
 }

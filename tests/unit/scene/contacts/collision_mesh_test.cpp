@@ -225,7 +225,7 @@ TEST(CollisionMesh, RefusesWhatIsNoClosedSurfaceAndSaysWhere) {
   EXPECT_THAT(refusal(turned), HasSubstr("has triangles of opposite senses"));
   auto inward = make_cube();
   for (auto& triangle : inward) std::swap(triangle[0], triangle[1]);
-  EXPECT_THAT(refusal(inward), HasSubstr("turned inside out (volume -1 m^3)"));
+  EXPECT_THAT(refusal(inward), HasSubstr("is inside out (volume -1 m^3)"));
   auto flat = make_cube();
   flat[4][2] = 0.5 * (flat[4][0] + flat[4][1]);
   EXPECT_THAT(refusal(flat),

@@ -215,10 +215,10 @@ TEST(ContactReader, TellsWhichRestitutionsActAsTheLeast) {
       "[[contact]]\nbetween=['a','d']\nrestitution=0.049\n"
       "[[contact]]\nbetween=['a','e']\ndamping=0.1\n");
   ASSERT_EQ(scenario.warnings.size(), 1U);
-  EXPECT_THAT(scenario.warnings[0],
-              HasSubstr("'restitution' of [[contact]] 1, 3 is below 0.05, and "
-                        "acts as that: the bodies part with 0.25 % of their "
-                        "energy"));
+  EXPECT_THAT(
+      scenario.warnings[0],
+      HasSubstr("'restitution' of [[contact]] 1, 3 is below 0.05 and acts as "
+                "that value: the bodies separate with 0.25 % of their energy"));
 }
 
 TEST(ContactReader, TellsEveryProblemOfAContact) {
