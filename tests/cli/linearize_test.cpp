@@ -116,7 +116,7 @@ TEST_F(Linearize, IsAboutTheStateOfARunAtATime) {
   const json model = read("--at 0.5 --set controller.pd.proportional=1e-9");
   EXPECT_EQ(model["time"], json::parse("[[0.5]]"));
   EXPECT_NEAR(model["y0"][0][0].get<double>(), 0.5 * 2.0 * 0.25, 1e-6);
-  EXPECT_THAT(errors_, HasSubstr("the state at 0.5 s is no steady motion"));
+  EXPECT_THAT(errors_, HasSubstr("the state at 0.5 s is not a steady motion"));
 }
 
 TEST_F(Linearize, RefusesWhatItCannotDoInOneClearError) {

@@ -62,7 +62,7 @@ TEST_F(Play, RefusesALevelThatNeedsTheMesh) {
   write_scene("[fidelity]\ndefault = 'full'\n");
   expect_refused("--play beam.toml",
                  AllOf(HasSubstr("link 'beam' has level full"),
-                       HasSubstr("take another level")));
+                       HasSubstr("choose another level")));
 }
 
 TEST_F(Play, RefusesFilesThatThePageWouldLack) {

@@ -129,7 +129,7 @@ TEST_F(AStudy, IsJoinedFromItsShards) {
       "b",
       "shards have no runs in common");
   expect_refused("--collect parts/study-1-of-3.sqlite --out a",
-                 "is there already");
+                 "already exists");
   place_.write("other.toml", replace(kStudy, "seed = 5", "seed = 6"));
   (void)run("other.toml --out other --shard 2/3");
   expect_refused(

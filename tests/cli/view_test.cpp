@@ -171,7 +171,7 @@ TEST(View, RefusesResultsThatAreDamaged) {
       {.end = -1.0, .why = "is damaged: output 2 is at -1 s, not after 0 s"},
       {.end = 0.0, .why = "is damaged: output 2 is at 0 s, not after 0 s"},
       {.level = "coupled", .why = "flexible link 'b' has no surface"},
-      {.w = 0.0, .why = "'bodies/b/quat_WB' is no rotation"}};
+      {.w = 0.0, .why = "'bodies/b/quat_WB' is not a rotation"}};
   for (const Damage& damage : all) {
     const Workspace place;
     write_results(place, damage.end, damage.level, damage.w);

@@ -42,7 +42,7 @@ fem::SparseMatrix make_drag(const MeshedBody& body, const Friction& friction) {
     throw InputError(fmt::format(
         "{}: friction without damping: mass_rate and surface are 0, so nothing "
         "resists rigid motion and no speed is steady (stiffness_time resists "
-        "deformation alone). Expected one of the two above 0.",
+        "only deformation). Expected one of the two above 0.",
         body.mesh.source));
   return combine(body, friction);
 }

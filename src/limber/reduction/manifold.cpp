@@ -171,7 +171,7 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
   if (paired.size() > QuadraticStrain::kMostPaired) {
     throw InputError(
         fmt::format("body '{}': {} of its modes rotate more than they strain; "
-                    "level nonlinear takes at most {}. Take fewer modes",
+                    "level nonlinear takes at most {}. Use fewer modes",
                     recipe.name, paired.size(), QuadraticStrain::kMostPaired));
   }
   const MatrixX Phi_P = Phi(Eigen::all, paired);

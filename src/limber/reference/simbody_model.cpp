@@ -270,10 +270,11 @@ void SimbodyModel::add_bushing(const BushingElement& element) {
 void SimbodyModel::add_universal(const UniversalElement& element) {
   if (joints_ == JointModel::ideal) return;
   if (joints_ == JointModel::linear_bushings) {
-    throw InputError(fmt::format(
-        "universal joint '{}' has no linear bushing: what it holds turns with "
-        "both of its sides; compare with --joints bushings or ideal",
-        element.name));
+    throw InputError(
+        fmt::format("universal joint '{}' has no linear bushing: the body "
+                    "between its axes rotates with both of its sides; compare "
+                    "with --joints bushings or ideal",
+                    element.name));
   }
   couplers_.push_back(SimTK::Force::Custom(
       forces_,

@@ -181,10 +181,10 @@ void check_data_name(const std::filesystem::path& file,
     problem = "is not UTF-8";
   }
   if (problem == nullptr) return;
-  throw InputError(fmt::format(
-      "'{}': its name {}, so that readers of XDMF would not find '{}' beside "
-      "it; take another name",
-      echo(file.string()), problem, echo(data)));
+  throw InputError(
+      fmt::format("'{}': its name {}, so that readers of XDMF would not find "
+                  "'{}' beside it; choose another name",
+                  echo(file.string()), problem, echo(data)));
 }
 
 }  // namespace

@@ -79,15 +79,13 @@ std::vector<std::string> find_cut_contacts(
           a.other == dynamics::kWorld
               ? "the world"
               : fmt::format("'{}'", model.bodies[index(a.other)].name);
-      warnings.push_back(
-          fmt::format("pieces '{}' and '{}' of link '{}' touch {} at once, at "
-                      "t = {:.6g} s: "
-                      "at a cut each resists as if it were alone, and an "
-                      "impact's force may "
-                      "be up to 1.3 times too large; another number of pieces "
-                      "moves the cut",
-                      a.piece, b.piece, a.link, what,
-                      std::max(a.record->time, b.record->time)));
+      warnings.push_back(fmt::format(
+          "pieces '{}' and '{}' of link '{}' touch {} at the same time, at t = "
+          "{:.6g} s: at a cut each deforms as if the other did not touch, and "
+          "an impact's force may be up to 1.3 times too large; another number "
+          "of pieces moves the cut",
+          a.piece, b.piece, a.link, what,
+          std::max(a.record->time, b.record->time)));
     }
   }
   return warnings;

@@ -113,7 +113,7 @@ void verify(const VerifyOptions& options) {
   }
   if (options.refine > 0 && !options.stiffen.empty()) {
     throw InputError(
-        "--refine and --stiffen are two studies; ask for one at a time");
+        "--refine and --stiffen are two studies; choose one at a time");
   }
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);

@@ -34,8 +34,8 @@ void add_static_modes(const ModesOptions& options, flexbody::Recipe& recipe) {
       !options.forces.empty() || !options.interfaces.empty();
   if (options.static_terms && !has_source) {
     throw InputError(
-        "--static lists static-deformation modes; name what they come from by "
-        "--force or --interface");
+        "--static lists static-deformation modes; name their source by --force "
+        "or --interface");
   }
   if (!options.static_terms && !options.interfaces.empty()) {
     throw InputError("--interface requires --static");

@@ -49,8 +49,8 @@ flexbody::Recipe make_recipe(const ReduceOptions& options) {
   if (options.terms > 1 && options.forces.empty() &&
       options.interfaces.empty()) {
     throw InputError(
-        "--terms counts those of static-deformation modes; name what they "
-        "come from by --force or --interface");
+        "--terms counts those of static-deformation modes; name their source "
+        "by --force or --interface");
   }
   if (options.interfaces.empty() &&
       std::count(options.rows.begin(), options.rows.end(), "interfaces") > 0) {

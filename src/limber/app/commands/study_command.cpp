@@ -47,7 +47,8 @@ Shard parse_shard(const std::string& text) {
   const auto n = scene::to_index(text.substr(slash + 1));
   if (!k || !n || *k < 1 || *k > *n) {
     throw InputError(fmt::format(
-        "--shard '{}': expected K/N with K from 1 to N, as 2/8", text));
+        "--shard '{}': expected K/N with K from 1 to N, for example 2/8",
+        text));
   }
   return {*k - 1, *n};
 }
@@ -125,8 +126,8 @@ void run_one(const StudyCommandOptions& options) {
 void collect(const StudyCommandOptions& options) {
   if (!options.study.empty() || !options.shard.empty()) {
     throw InputError(
-        "--collect takes files of results alone, no study file "
-        "and no --shard");
+        "--collect takes only files of results, without a study file and "
+        "--shard");
   }
   const fs::path folder = make_folder(options, "collected");
   const fs::path file = folder / "study.sqlite";

@@ -34,7 +34,7 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
                    "order of convergence")
       ->check(CLI::Range(0, 20));
   add_list(*command, "--stiffen", options->stiffen,
-           "Factors of the stiffness of all joints, as in 1,10,100: "
+           "Factors of the stiffness of all joints, for example 1,10,100: "
            "convergence to Simbody's ideal joints",
            make_positive());
   command->add_option("--out", options->out,

@@ -72,10 +72,10 @@ dynamics::Fidelity find_level(const WobbleOptions& options) {
 std::vector<double> find_output_times(double step, double duration) {
   constexpr double kMostOutputs = 1e7;  // they are kept in memory
   if (!(duration / step <= kMostOutputs)) {
-    throw InputError(fmt::format(
-        "--step {:g} s takes {:.3g} steps until {:g} s, each an output; at "
-        "most {:g} can be kept",
-        step, duration / step, duration, kMostOutputs));
+    throw InputError(
+        fmt::format("--step {:g} s needs {:.3g} steps until {:g} s, each an "
+                    "output; at most {:g} can be stored",
+                    step, duration / step, duration, kMostOutputs));
   }
   std::vector<double> times;
   const auto count = static_cast<long>(std::ceil(duration / step - 1e-9));

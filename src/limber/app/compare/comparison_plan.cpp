@@ -270,7 +270,7 @@ std::string describe_default_reference(const ComparisonPlan& plan) {
   if (!plan.reference_is_default) return "";
   if (!has_basis(plan.reference.level)) {
     return fmt::format(
-        "The reference is the highest level asked for, '{}'; choose another by "
+        "The reference is the highest level requested, '{}'; choose another by "
         "--reference.",
         to_string(plan.reference.level));
   }

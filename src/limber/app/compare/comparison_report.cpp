@@ -193,8 +193,8 @@ std::string to_text(const Comparison& comparison) {
   }
   return text +
          "Errors: RMS over nodes and times (largest over times), relative to "
-         "the reference's.\nOnline: wall time per simulated time. Drift: of "
-         "energy, relative to what passed.\n";
+         "the reference's.\nOnline: wall time per simulated time. Drift: "
+         "energy error relative to the throughput.\n";
 }
 
 }  // namespace limber::app

@@ -55,7 +55,7 @@ double parse_tolerance(const std::string& text) {
   if (is_percent) number.remove_suffix(1);
   while (number.ends_with(' ')) number.remove_suffix(1);
   const std::optional<double> given = parse_number(number);
-  if (!given) refuse("is no finite number");
+  if (!given) refuse("is not a finite number");
   const double value = is_percent ? *given / 100.0 : *given;
   if (!(value > 0.0) || !(value < 1.0)) {
     refuse(fmt::format("is {:g} %", 100.0 * value));

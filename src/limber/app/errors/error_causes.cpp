@@ -177,8 +177,7 @@ class Finder {
         *lowest < *highest ? std::optional(*highest) : find_next(*highest);
     if (!finer) {
       found_.unknown.emplace_back(
-          "level: above nonlinear there is full alone, which takes whole "
-          "meshes");
+          "level: only full is above nonlinear, and it uses whole meshes");
       return;
     }
     add("level", fmt::format("all links at level {}", to_string(*finer)),

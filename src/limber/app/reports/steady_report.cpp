@@ -9,7 +9,7 @@ std::string describe_imbalance(const dynamics::Imbalance& imbalance,
                                bool is_moving, const LinearisedAt& at) {
   std::string text =
       fmt::format("{} is {}: ", at.where,
-                  is_moving ? "no steady motion" : "not an equilibrium");
+                  is_moving ? "not a steady motion" : "not an equilibrium");
   // Of modes a weighted acceleration, and no force of the scene.
   if (imbalance.force > 0.0) {
     text += fmt::format(

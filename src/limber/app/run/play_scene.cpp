@@ -113,10 +113,10 @@ void refuse_full(const scene::Scene& scene) {
         scene.scenario.level_of(link.name) != dynamics::Fidelity::full) {
       continue;
     }
-    throw InputError(fmt::format(
-        "link '{}' has level full, for which a page lacks the mesh; take "
-        "another level",
-        link.name));
+    throw InputError(
+        fmt::format("link '{}' has level full, for which a page lacks the "
+                    "mesh; choose another level",
+                    link.name));
   }
 }
 

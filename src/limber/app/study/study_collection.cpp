@@ -27,9 +27,10 @@ Place split_place(const std::string& place) {
                        ? std::nullopt
                        : scene::to_index(place.substr(hash + 1));
   if (!run) {
-    throw InputError(fmt::format(
-        "'{}' names no run of a study; expected FILE#RUN, as study.sqlite#17",
-        place));
+    throw InputError(
+        fmt::format("'{}' is not a run of a study; expected FILE#RUN, for "
+                    "example study.sqlite#17",
+                    place));
   }
   return {place.substr(0, hash), *run};
 }
@@ -41,7 +42,7 @@ std::size_t collect_study(const std::vector<std::string>& files,
   std::error_code ignored;
   if (fs::exists(made, ignored)) {
     throw InputError(
-        fmt::format("'{}' is there already; choose another folder with --out",
+        fmt::format("'{}' already exists; choose another folder with --out",
                     made.string()));
   }
   std::map<std::size_t, std::pair<StudyRow, std::string>> rows;

@@ -266,8 +266,9 @@ void check_paths(const Study& study, TomlTable& root) {
   for (const Factor& factor : study.factors) {
     for (const std::string& path : factor.paths) {
       if (taken.insert(path).second) continue;
-      root.fail(fmt::format("factor '{}': another has the path '{}', too",
-                            echo(factor.name), echo(path)));
+      root.fail(
+          fmt::format("factor '{}': another factor also has the path '{}'",
+                      echo(factor.name), echo(path)));
     }
   }
 }

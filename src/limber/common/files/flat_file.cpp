@@ -104,7 +104,7 @@ FlatFile read_flat(const std::filesystem::path& file, std::size_t user_block) {
   FlatReader reader(file, user_block);
   FlatFile content{reader.front(), {}};
   if (reader.take(kFlatMagic.size()) != kFlatMagic) {
-    reader.fail("is no flat file");
+    reader.fail("is not a flat file");
   }
   while (!reader.is_at_end()) {
     const std::string name = reader.take(reader.take_number());

@@ -102,10 +102,9 @@ void check_shape(const Shape& shape) {
   const double error = (R.transpose() * R - Matrix3::Identity()).norm();
   if (!(error < kRoundOff) || !(R.determinant() > 0.0) ||
       !shape.X_BS.p.allFinite()) {
-    throw InputError(
-        fmt::format("contact: the pose of its {} is no rotation and finite "
-                    "position",
-                    name_kind(shape)));
+    throw InputError(fmt::format(
+        "contact: the pose of its {} is not a rotation and a finite position",
+        name_kind(shape)));
   }
   const bool is_at_body =
       shape.X_BS.p.isZero(0.0) && (R - Matrix3::Identity()).isZero(0.0);

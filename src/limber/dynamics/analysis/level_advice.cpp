@@ -242,14 +242,14 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
     case Fidelity::one_way:
       if (e.uncoupled <= limits.displacement) {
         return fmt::format(
-            "nodal inertial forces reach {:.2g} N, more than {:.2g} N; what "
-            "one-way neglects moves it by {}, within {}",
+            "nodal inertial forces reach {:.2g} N, more than {:.2g} N; the "
+            "terms that one-way neglects move it by {}, within {}",
             peaks.force.value, limits.force.value_or(0.0), metres(e.one_way),
             limit);
       }
       return fmt::format(
-          "inertial forces move it by {}, more than {}; what one-way neglects, "
-          "by {}",
+          "inertial forces move it by {}, more than {}; the terms that one-way "
+          "neglects, by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::nonlinear:
     case Fidelity::full:

@@ -128,7 +128,7 @@ class Spin {
       }
       throw InputError(
           "a load in the world's axes across the axis of rotation: no rotation "
-          "is steady under it; take frame = \"body\"");
+          "is steady under it; use frame = \"body\"");
     }
   }
 

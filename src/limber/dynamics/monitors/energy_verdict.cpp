@@ -40,18 +40,18 @@ std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
   const IntegratorTraits& traits = traits_of(integrator);
   if (traits.order == 1 && traits.is_implicit) {
     return traits.name +
-           " damps whatever its steps do not resolve; take shorter steps or "
+           " damps whatever its steps do not resolve; use shorter steps or "
            "generalized-alpha";
   }
   if (traits.order == 1) {
     return traits.name +
            " is of first order and uses the forces at the start of a step for "
-           "work; take shorter steps or another integrator";
+           "work; use shorter steps or another integrator";
   }
   if (integrator == IntegratorKind::energy_conserving) {
-    return "take shorter steps, or generalized-alpha with steps to a tolerance";
+    return "use shorter steps, or generalized-alpha with steps to a tolerance";
   }
-  return "take shorter steps, steps to a tolerance, or energy-conserving";
+  return "use shorter steps, steps to a tolerance, or energy-conserving";
 }
 
 }  // namespace

@@ -75,11 +75,11 @@ double find_common(double a, double b) {
 
 const char* advise_on_impacts(IntegratorKind scheme) {
   if (scheme == IntegratorKind::implicit_euler) {
-    return "take shorter steps or generalized-alpha";
+    return "use shorter steps or generalized-alpha";
   }
   return scheme == IntegratorKind::energy_conserving
-             ? "take shorter steps or more impact_steps"
-             : "take shorter steps, more impact_steps or energy-conserving";
+             ? "use shorter steps or more impact_steps"
+             : "use shorter steps, more impact_steps or energy-conserving";
 }
 
 }  // namespace

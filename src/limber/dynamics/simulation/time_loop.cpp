@@ -242,7 +242,7 @@ void TimeLoop::tell(RunRecord& record) {
     statistics_.warnings.push_back(fmt::format(
         "contact '{}': a step was divided into 1000 parts for the impacts in "
         "it, and its remainder was taken in one: their restitution may be "
-        "wrong; take shorter steps, softer contacts or fewer impact_steps",
+        "wrong; use shorter steps, softer contacts or fewer impact_steps",
         model_.pairs[*pair].name));
   }
 }

@@ -96,12 +96,12 @@ void check_reduced(const std::string& what,
   }
   if (reduced.clamped) {
     const Eigen::Index columns = reduced.integrals.P.cols();
-    check_size(what, "what gravity does to its modes",
+    check_size(what, "the effect of gravity on its modes",
                reduced.manifold
                    ? std::min<Eigen::Index>(columns, reduced.mode_count())
                    : columns,
                reduced.mode_count());
-    check_finite(what, "what gravity does to its modes",
+    check_finite(what, "the effect of gravity on its modes",
                  reduced.integrals.P.allFinite());
   }
 }
@@ -151,7 +151,7 @@ void check_manifold(const std::string& what,
       reduced.integrals.P.cols() != reduced.mode_count() + pairs) {
     throw InputError(
         what +
-        ": its saved body lacks what gravity does to the second order of a "
+        ": its saved body lacks the second-order effect of gravity on a "
         "clamped group; reduce its mesh again for level nonlinear");
   }
   if (manifold.Theta_B.rows() != reduced.rows.Phi_B.rows()) {
@@ -191,8 +191,8 @@ void check_elasticity(const std::string& what,
   if (!is_by_frequency || flexbody::is_diagonal_at_rest(elasticity)) return;
   throw InputError(
       what +
-      ": its modes have no frequencies of their own, by which damping ratios "
-      "and Rayleigh damping of stiffness go; give Rayleigh damping of mass");
+      ": its modes are coupled and have no frequencies, which damping ratios "
+      "and Rayleigh damping of stiffness need; give Rayleigh damping of mass");
 }
 
 VectorX check_damping(const std::string& what, const ModalDamping& damping,
@@ -341,10 +341,10 @@ void check_writes(const std::string& what, const ControllerModel& controller,
       if (std::count(other.writes.begin(), other.writes.end(), input) == 0) {
         continue;
       }
-      throw InputError(fmt::format(
-          "{}: it writes input '{}', which controller '{}' writes, too; one "
-          "input has one writer",
-          what, name, other.name));
+      throw InputError(
+          fmt::format("{}: it writes input '{}', which controller '{}' also "
+                      "writes; an input has only one writer",
+                      what, name, other.name));
     }
   }
 }

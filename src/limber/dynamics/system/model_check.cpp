@@ -183,7 +183,7 @@ class ModelCheck {
                  has(joints::coordinates_of(
                          model_.couplers[index(term.coupler)].law),
                      term.coordinate),
-             "a term of its sum is no coordinate of a joint");
+             "a term of its sum is not a coordinate of a joint");
       expect(std::isfinite(term.factor) && term.factor != 0.0,
              "a factor of its sum is zero or not finite");
     }

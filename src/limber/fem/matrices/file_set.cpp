@@ -125,7 +125,7 @@ class FileSetReader {
   void set_points(const Path& file) {
     if (set_.points)
       throw InputError(
-          fmt::format("{}: the points of the recovery rows are in {}, too. "
+          fmt::format("{}: the points of the recovery rows are also in {}. "
                       "Expected one table.",
                       file.string(), set_.points->file.string()));
     set_.points = read_node_table(file);
@@ -135,10 +135,10 @@ class FileSetReader {
 
   void set_recovery_rows(RowTable table) {
     if (set_.recovery_rows)
-      throw InputError(fmt::format(
-          "{}: the rows of the recovery matrix are in {}, too. Expected one "
-          "table.",
-          table.file.string(), set_.recovery_rows->file.string()));
+      throw InputError(
+          fmt::format("{}: the rows of the recovery matrix are also in {}. "
+                      "Expected one table.",
+                      table.file.string(), set_.recovery_rows->file.string()));
     note(table.file, fmt::format("what the recovery rows are, {} rows",
                                  table.labels.size()));
     set_.recovery_rows = std::move(table);

@@ -140,8 +140,8 @@ class InputDeckReader {
   double read_real(std::string_view field) const {
     double value = 0.0;
     if (!field.empty() && !parse_real(field, value))
-      scanner_->fail(
-          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
+      scanner_->fail(fmt::format("'{}' is not a finite number. Expected one.",
+                                 echo(field)));
     return value;
   }
 

@@ -45,15 +45,15 @@ bool is_number(const std::string& text) {
 double read_coordinate(const TextScanner& scanner, const std::string& text) {
   double value = 0.0;
   if (!parse_real(text, value))
-    scanner.fail(fmt::format("'{}' is no finite number. Expected a coordinate.",
-                             echo(text)));
+    scanner.fail(fmt::format(
+        "'{}' is not a finite number. Expected a coordinate.", echo(text)));
   return value;
 }
 
 long read_node(const TextScanner& scanner, const std::string& text) {
   long node = 0;
   if (!parse_whole(text, node) || node < 1 || node > kMostNodeNumber)
-    scanner.fail(fmt::format("'{}' is no node. Expected an integer from 1.",
+    scanner.fail(fmt::format("'{}' is not a node. Expected an integer from 1.",
                              echo(text)));
   return node;
 }
@@ -68,8 +68,8 @@ long read_components(const TextScanner& scanner, const std::string& text) {
       text.find_first_not_of("123456") == std::string::npos;
   if (!is_right)
     scanner.fail(
-        fmt::format("'{}' are no components. Expected ascending "
-                    "digits 1 to 6, as 123 or 123456.",
+        fmt::format("'{}' are not components. Expected ascending digits 1 to "
+                    "6, such as 123 or 123456.",
                     echo(text)));
   return value;
 }
@@ -132,7 +132,7 @@ class NodeTableReader {
                                         find({"X"}), find({"Y"}), find({"Z"})};
     if (*std::min_element(columns.begin(), columns.end()) < 0) {
       if (!model_.tags.empty() && upper.find("NODE") == std::string::npos)
-        scanner_.fail(fmt::format("'{}' is no node. Expected node, x, y, z.",
+        scanner_.fail(fmt::format("'{}' is not a node. Expected node, x, y, z.",
                                   echo(scanner_.line())));
       return;
     }
@@ -269,8 +269,8 @@ RowTable read_dof_lines(const std::filesystem::path& file) {
         !parse_whole(text.substr(0, dot), label.node) || label.node < 1 ||
         !parse_whole(text.substr(dot + 1), component) || component < 0 ||
         component > 6 || label.node > kMostNodeNumber) {
-      scanner.fail(
-          fmt::format("'{}'. Expected node.component, as 12.3.", echo(text)));
+      scanner.fail(fmt::format("'{}'. Expected node.component, such as 12.3.",
+                               echo(text)));
     }
     label.component = static_cast<int>(component);
     table.labels.push_back(label);
@@ -317,7 +317,7 @@ std::vector<RowTable> read_set_print(const std::filesystem::path& file) {
           label.node > kMostNodeNumber ||
           !parse_whole(word.substr(dash + 1), component) || component < 0 ||
           component > 6)
-        scanner.fail(fmt::format("'{}' is no row. Expected grid-component.",
+        scanner.fail(fmt::format("'{}' is not a row. Expected grid-component.",
                                  echo(word)));
       label.component = static_cast<int>(component);
       rows.add(scanner, row, label);

@@ -88,7 +88,7 @@ void check_recovery(FileSet& set, std::size_t rows) {
   }
   if (recovery->labels.size() != count)
     throw InputError(fmt::format(
-        "{}: it has {} rows, and what they are is known of {}. Expected a "
+        "{}: it has {} rows, and the meaning of only {} is known. Expected a "
         "table of its points with 3 or 6 rows each or their components "
         "(node,x,y,z,components), or a table of its rows (row,node,component).",
         recovery->matrix.file, count, recovery->labels.size()));
@@ -149,10 +149,10 @@ void add_recovery(FileSet& set, const std::vector<RowLabel>& labels,
           recovery->matrix.file, label.node, i + 1));
     const MatrixRow row{place->second, label.component - 1};
     if (!condensed.emplace(row.node, row.component).second)
-      throw InputError(fmt::format(
-          "{}: row {} recovers {}, which the input file's constraints give, "
-          "too. Expected one of them.",
-          recovery->matrix.file, i + 1, name_row(label)));
+      throw InputError(
+          fmt::format("{}: row {} recovers {}, which also follows from the "
+                      "input file's constraints. Expected one of them.",
+                      recovery->matrix.file, i + 1, name_row(label)));
     for (RecoveryRows::InnerIterator it(entries, i); it; ++it)
       equations.emplace_back(static_cast<int>(model.condensed.size()),
                              static_cast<int>(it.col()), it.value());

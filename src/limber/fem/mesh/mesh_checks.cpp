@@ -119,10 +119,10 @@ void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
         "Expected positive; {}.",
         mesh.source, block.tags[e], element.name,
         det < -least ? "inverted" : "degenerate", det,
-        element.order > 1
-            ? "where a curved edge did it, take a finer mesh or straight edges "
-              "(Mesh.SecondOrderLinear = 1); else correct the element's nodes"
-            : "correct the element's nodes or their order"));
+        element.order > 1 ? "if a curved edge is the cause, use a finer mesh "
+                            "or straight edges (Mesh.SecondOrderLinear = 1); "
+                            "else correct the element's nodes"
+                          : "correct the element's nodes or their order"));
   }
 }
 

@@ -169,11 +169,11 @@ ElementLabels label_elements(const Mesh& mesh, const VectorX& f, int count) {
     const std::size_t from =
         place_cut(elements, volume * cut / count, kWindow * volume / count);
     if (from == 0) {
-      throw InputError(fmt::format(
-          "{}: its {} elements do not give {} pieces along its length: a layer "
-          "of elements is longer than half a piece. Ask for fewer pieces or a "
-          "finer mesh.",
-          mesh.source, elements.size(), count));
+      throw InputError(
+          fmt::format("{}: its {} elements do not give {} pieces along its "
+                      "length: a layer of elements is longer than half a "
+                      "piece. Request fewer pieces or a finer mesh.",
+                      mesh.source, elements.size(), count));
     }
     for (std::size_t i = from; i < elements.size(); ++i) {
       labels[elements[i].number] = cut;
@@ -247,7 +247,7 @@ void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
           kSmall * static_cast<double>(sizes.at(main))) {
         throw InputError(fmt::format(
             "{}: piece {} of {} along its length would be in two parts, of {} "
-            "and {} elements: it has branches or a hole there. Ask for another "
+            "and {} elements: it has branches or a hole there. Choose another "
             "number of pieces, or leave it whole.",
             mesh.source, label + 1, count, sizes.at(main), size));
       }

@@ -67,11 +67,11 @@ VectorX find_weights(const std::vector<double>& times) {
 MatrixX find_coefficients(const MatrixX& A, const MatrixX& b) {
   auto [x, rank] = dense::solve_least_squares(A, b, 1.0 / kMostAmplification);
   if (rank < A.cols()) {
-    throw InputError(fmt::format(
-        "load table: its times are too unevenly spaced for {} harmonics, of "
-        "which they determine only {} of {} coefficients; ask for fewer "
-        "harmonics or fill the gaps",
-        (A.cols() - 1) / 2, rank, A.cols()));
+    throw InputError(
+        fmt::format("load table: its times are too unevenly spaced for {} "
+                    "harmonics, of which they determine only {} of {} "
+                    "coefficients; use fewer harmonics or fill the gaps",
+                    (A.cols() - 1) / 2, rank, A.cols()));
   }
   return x;
 }

@@ -54,7 +54,7 @@ std::vector<std::string> describe_losses(const ProjectedField& field,
   if (field.rigid_share > kSmall) {
     texts.push_back(fmt::format(
         "{:.3g} % of the {} (in the norm of mass) is rigid motion and is left "
-        "out; give that by [initial.base] or [initial.joints]",
+        "out; specify it by [initial.base] or [initial.joints]",
         100.0 * field.rigid_share, what));
   }
   if (field.missed_share > kSmall) {

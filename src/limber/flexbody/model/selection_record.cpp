@@ -30,7 +30,7 @@ std::string describe(const SelectedCase& item, const SelectionRecord& record) {
   return fmt::format(
       "automatic modes: {} candidates reach {:.4g} % of '{}' by measure '{}', "
       "not {:.4g} %; static error {:.3g} % by them, {:.3g} % by the whole "
-      "basis. Allow more candidates or ask for less.",
+      "basis. Allow more candidates or require less.",
       record.candidates, percent(item.reached), item.name,
       to_string(record.measure), percent(record.threshold),
       percent(item.eigenmode_error), percent(item.basis_error));

@@ -188,13 +188,13 @@ std::string describe_motion(const BlockDefects& defects) {
         defects.motion);
   if (defects.shape == defects.largest())
     return fmt::format(
-        "the nodes' blocks of the mass matrix differ by direction, which "
-        "makes {:.2g} of a mode's kinetic energy, as where inner nodes were "
+        "the nodes' blocks of the mass matrix differ by direction, which makes "
+        "{:.2g} of a mode's kinetic energy, as if inner nodes had been "
         "condensed (Guyan)",
         defects.shape);
   return fmt::format(
       "moments of inertia by the nodes' blocks of the mass matrix differ by "
-      "{:.2g} from those of rigid rotation, as where inner nodes were "
+      "{:.2g} from those of rigid rotation, as if inner nodes had been "
       "condensed (Guyan), elements are too few, or a mass on an averaging "
       "connection (RBE3) was condensed into many nodes",
       defects.inertia);
@@ -203,7 +203,7 @@ std::string describe_motion(const BlockDefects& defects) {
 std::string describe_gap(const MatrixPart& part, const BlockDefects& defects,
                          double residual) {
   const std::string start = fmt::format(
-      "{}: {}, so that the matrices do not say where the mass moves",
+      "{}: {}, so that the matrices do not determine how the mass moves",
       part.system.source, describe_motion(defects));
   if (!part.system.has_recovery)
     return start +

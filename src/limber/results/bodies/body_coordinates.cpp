@@ -158,7 +158,7 @@ void require_free(const ReducedBody& body) {
   if (!body.clamped) return;
   throw InputError(fmt::format(
       "body '{}' is clamped: its matrices have no rigid motion, which other "
-      "programs need. Reduce it without a clamp, and hold it there",
+      "programs need. Reduce it without a clamp, and constrain it there",
       body.name));
 }
 

@@ -66,10 +66,10 @@ void Assembly::add_body(const BodyPlan& plan) {
     mass += piece.mass;
   }
   if (link.inertia && std::abs(link.inertia->mass - mass) > kMassShare * mass) {
-    warnings_.push_back(fmt::format(
-        "link '{}': the mesh has {:.4g} kg, <inertial> says {:.4g} kg; the "
-        "mesh's is used",
-        link.name, mass, link.inertia->mass));
+    warnings_.push_back(
+        fmt::format("link '{}': the mesh has {:.4g} kg, <inertial> has {:.4g} "
+                    "kg; the mesh's is used",
+                    link.name, mass, link.inertia->mass));
   }
   if (level == dynamics::Fidelity::rigid &&
       find_start(scene_.scenario, link.name) != nullptr) {
@@ -115,11 +115,12 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
             link.name));
       }
       damping.ratios = {0.5 * loss_factor};
-      warnings_.push_back(fmt::format(
-          "link '{}' is at level full: its damping ratio of {:g} acts on the "
-          "modes of the body as its reduction holds it, and those of the arm "
-          "are damped less; at other levels it is that of all modes",
-          link.name, 0.5 * loss_factor));
+      warnings_.push_back(
+          fmt::format("link '{}' is at level full: its damping ratio of {:g} "
+                      "acts on the modes of the body with the boundary "
+                      "conditions of its reduction, and those of the arm are "
+                      "damped less; at other levels it is that of all modes",
+                      link.name, 0.5 * loss_factor));
     }
     return builder_.add_full_body(plan.name, plan.reduced, plan.full, damping);
   }

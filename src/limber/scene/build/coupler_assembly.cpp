@@ -121,8 +121,8 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
   const std::string interface =
       find_joint_interface(*source.flexible, joint.name);
   const Anchor anchor = with_context(
-      fmt::format("joint '{}' on link '{}', which it holds at {}", joint.name,
-                  source.name,
+      fmt::format("joint '{}' on link '{}', to which it is attached at {}",
+                  joint.name, source.name,
                   interface == joint.name
                       ? "the interface of the joint's own name"
                       : "the interface that <attach> names"),

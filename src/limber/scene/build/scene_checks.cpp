@@ -157,8 +157,8 @@ class Checker {
         find_named(who, "probe", column.substr(0, dot), scenario_.probes);
         continue;
       }
-      problems_.add(0, fmt::format("{}: '{}' is no column of a probe; expected "
-                                   "PROBE.COLUMN, such as 'tip.ux'",
+      problems_.add(0, fmt::format("{}: '{}' is not a column of a probe; "
+                                   "expected PROBE.COLUMN, such as 'tip.ux'",
                                    who, column));
     }
   }

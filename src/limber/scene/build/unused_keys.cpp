@@ -164,8 +164,8 @@ class Finder {
       const Fidelity level = scenario_.level_of(link.name);
       if (takes_pieces(level)) continue;
       tell("'pieces' of link '" + link.name + "'",
-           fmt::format("level {} takes the whole mesh; coupled and nonlinear "
-                       "are of pieces",
+           fmt::format("level {} takes the whole mesh; only coupled and "
+                       "nonlinear use pieces",
                        to_string(level)));
     }
   }

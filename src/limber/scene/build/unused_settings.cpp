@@ -116,7 +116,7 @@ class JointJudge {
     if (!is_rotation && !path.starts_with("translational_")) return "";
     const bool is_free = joint_.kind == JointKind::floating ||
                          (joint_.kind == JointKind::ball && is_rotation);
-    return is_free ? fmt::format("{}, which holds no {}", name_type(),
+    return is_free ? fmt::format("{}, which constrains no {}", name_type(),
                                  is_rotation ? "rotation" : "translation")
                    : "";
   }

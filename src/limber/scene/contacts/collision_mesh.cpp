@@ -150,7 +150,7 @@ class Joiner {
       if (count == 1 && others == 1) continue;
       if (count + others == 1) {
         refuse("is open: " + describe_edge(edge) +
-               " belongs to one triangle alone; close it");
+               " belongs to only one triangle; close it");
       }
       if (count + others == 2) {
         refuse("has triangles of opposite senses on both sides of " +

@@ -281,7 +281,7 @@ std::string find_better_step(const Judged& judged, dynamics::LoopSteps steps) {
            std::log(0.5 * parts) / std::log(kMostSteps));
     steps.longest *= 0.5;
     if (!judged.find_false(steps)) {
-      return fmt::format("take a step of {:.3g} s", steps.longest);
+      return fmt::format("use a step of {:.3g} s", steps.longest);
     }
   }
   return "give the controller a filter";

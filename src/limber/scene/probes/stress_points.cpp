@@ -147,7 +147,7 @@ bool is_in_layer_axes(StressQuantity quantity,
 bool has_stress(Fidelity level) { return level != Fidelity::rigid; }
 
 std::string explain_no_stress() {
-  return "it is rigid in this run, and a rigid link has no stress; take "
+  return "it is rigid in this run, and a rigid link has no stress; choose "
          "another level";
 }
 
@@ -177,12 +177,12 @@ bool leave_out_stress(Scenario& scenario) {
 void require_stress(const ReducedBody& body, Fidelity level) {
   if (!body.stress) {
     throw InputError(
-        "stress is asked for, but its saved body has no stress modes; reduce "
+        "stress is requested, but its saved body has no stress modes; reduce "
         "it again by 'limber reduce --stress'");
   }
   if (body.stress->Sigma_B.cols() >= count_columns(body, level)) return;
   throw InputError(
-      "stress is asked for at level nonlinear, but its saved body has only "
+      "stress is requested at level nonlinear, but its saved body has only "
       "that of linear modes; reduce it again by 'limber reduce --second-order "
       "--stress'");
 }

@@ -140,10 +140,9 @@ Robot fix_base(Robot robot, const Pose& X_WR) {
   }
   for (const Link& link : robot.links) {
     if (link.name != "world") continue;
-    throw InputError(
-        fmt::format("{}: its link 'world' is not the root; rename "
-                    "it to fix the base",
-                    robot.file.string()));
+    throw InputError(fmt::format(
+        "{}: its link 'world' is not the root; rename the link to fix the base",
+        robot.file.string()));
   }
   Link world;
   world.name = "world";

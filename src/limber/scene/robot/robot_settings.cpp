@@ -108,7 +108,7 @@ class Setter {
   std::string run() {
     if (parts_.size() < 4) {
       refuse(
-          fmt::format("names no value of an element; expected "
+          fmt::format("does not name a value of an element; expected "
                       "robot.KIND.NAME.ATTRIBUTE with one of the kinds {}",
                       fmt::join(list_kinds(), ", ")));
     }
@@ -259,7 +259,7 @@ class Setter {
       refuse("is one number of several; set all of them");
     }
     if (element.Attribute(parts_[next]) == nullptr) {
-      refuse(fmt::format("removes what is not there: <{}> has no '{}'",
+      refuse(fmt::format("removes a key that does not exist: <{}> has no '{}'",
                          echo(element.ValueStr()), echo(parts_[next])));
     }
     element.RemoveAttribute(parts_[next].c_str());

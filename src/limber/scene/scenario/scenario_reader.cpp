@@ -339,7 +339,7 @@ void read_packages(TomlTable& table, const std::filesystem::path& folder,
         (folder / by_name.required_text(name)).lexically_normal();
     options.packages[name] = place;
     if (std::filesystem::is_directory(place)) continue;
-    by_name.fail(name, fmt::format("'{}' is no folder", place.string()));
+    by_name.fail(name, fmt::format("'{}' is not a folder", place.string()));
   }
 }
 

@@ -62,7 +62,7 @@ TEST(ComparisonPlan, TakesWholeMeshesOnlyWhenAsked) {
   const ComparisonPlan compared = make_plan(axes, {}, make_scene());
   EXPECT_EQ(compared.reference.level, Fidelity::full);
   EXPECT_THAT(describe_default_reference(compared),
-              HasSubstr("highest level asked for, 'full'"));
+              HasSubstr("highest level requested, 'full'"));
 }
 
 // Of the reference's cost, which has half the step.

@@ -179,7 +179,7 @@ TEST_F(Sampled, BadControllersAreRefused) {
   builder_.add_controller(make(0.1, note(1.0)));
   expect_refused([](ControllerModel&) {}, "controller");
   expect_refused([](ControllerModel& c) { c.name = "second"; },
-                 "which controller 'controller' writes, too");
+                 "which controller 'controller' also writes");
 }
 
 TEST_F(Sampled, InputsThatAreNotThereAreRefused) {

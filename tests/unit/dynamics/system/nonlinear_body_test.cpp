@@ -83,7 +83,7 @@ TEST(NonlinearBody, NeedsWhatGravityDoesToItsSecondOrderIfClamped) {
   bent.body.reduced.integrals.P = Matrix3X::Zero(3, kModes);
   SystemBuilder builder;
   EXPECT_THAT(refuse([&] { add(bent, builder); }),
-              HasSubstr("what gravity does to the second order"));
+              HasSubstr("the second-order effect of gravity"));
 }
 
 TEST(NonlinearBody, HasTheElasticityOfItsTablesAlone) {

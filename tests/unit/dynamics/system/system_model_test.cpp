@@ -131,7 +131,7 @@ TEST(CheckModel, FindsEachChangeOfAGoodModel) {
        "same body"},
       {[](SystemModel& m) { m.couplers[0].name = "wrist"; }, "another coupler"},
       {[](SystemModel& m) { m.couplers[0].law = joints::Bushing({}); },
-       "no coordinate of a joint"},
+       "not a coordinate of a joint"},
       {[](SystemModel& m) {
          std::get<JointSum>(m.transmissions[0].coordinate).terms[0].factor = 0;
        },

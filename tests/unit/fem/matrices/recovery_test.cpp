@@ -69,7 +69,7 @@ TEST(Recovery, OfOtherColumnsThanTheStiffnessHasRowsIsRefused) {
 TEST(Recovery, WithoutItsPointsIsRefused) {
   const Path folder = sample_folder("superelement");
   EXPECT_THAT(find_error({{folder}, {folder / "recovery/otm.mtx"}}),
-              HasSubstr("it has 144 rows, and what they are is known of 0"));
+              HasSubstr("it has 144 rows, and the meaning of only 0 is known"));
   EXPECT_THAT(find_error({{folder}, {folder / "recovery/points.csv"}}),
               HasSubstr("no matrix of recovery rows"));
   EXPECT_THAT(find_error({{folder}, {folder / "rows.csv", folder / "K.mtx"}}),

@@ -253,7 +253,7 @@ TEST(CollisionMesh, RefusesDamagedFilesAndSaysWhere) {
   EXPECT_THAT(refusal("a.stl", "solid x\nendsolid\n"),
               HasSubstr("has no triangles"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 nan 0\n"),
-              HasSubstr("line 3: 'nan' is no finite number"));
+              HasSubstr("line 3: 'nan' is not a finite number"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 0 0\nendfacet\n"),
               HasSubstr("line 4: a facet without three corners"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 0 0\n"),
