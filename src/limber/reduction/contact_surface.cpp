@@ -17,9 +17,9 @@
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/slices/nodal_pieces.hpp"
 #include "limber/reduction/slices/roll_off.hpp"
-#include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_flexibility.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
+#include "limber/reduction/slices/surface_division.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -34,7 +34,7 @@ Vector3 find_centre(const fem::Surface& surface) {
 
 /// Of corners by solution, of the points between them as their mean. Hertz's
 /// share is in what solid elements answer, not in beams' and shells' answer.
-VectorX find_residual(const SkinnedBody& body, const ReducedBasis& basis,
+VectorX find_residual(const BodyWithSurface& body, const ReducedBasis& basis,
                       const fem::Surface& surface,
                       std::vector<ContactPatch> patches,
                       const ContactGroup& group, const Progress& progress) {
@@ -116,18 +116,18 @@ void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
 }
 
 std::vector<ContactSlice> make_contact_slices(
-    const SkinnedBody& body, const fem::Surface& surface,
+    const BodyWithSurface& body, const fem::Surface& surface,
     const fem::ElasticMaterial& material, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center) {
   const std::vector<SurfaceSample> samples = sample_surface(body.mesh, surface);
   const double nu = material.poisson_ratio;
   const double modulus = material.youngs_modulus / (1.0 - nu * nu);
-  const SkinDivision division =
-      divide_skin(samples, basis.lambda, Phi, modulus, kMostSlices);
+  const SurfaceDivision division =
+      divide_surface(samples, basis.lambda, Phi, modulus, kMostSlices);
   const Eigen::Index nodes = body.mesh.x.cols();
   MatrixX loads(3 * nodes, 3 * std::ssize(division.slices));
   std::vector<ContactSlice> slices;
-  for (const SkinSlice& slice : division.slices) {
+  for (const SurfaceSlice& slice : division.slices) {
     const SliceMotion motion(slice.samples);
     loads.middleCols<3>(3 * std::ssize(slices)) = motion.find_loads(nodes);
     slices.push_back(
@@ -151,7 +151,7 @@ std::vector<ContactSlice> make_contact_slices(
   return slices;
 }
 
-ContactSurface make_contact_surface(const SkinnedBody& body,
+ContactSurface make_contact_surface(const BodyWithSurface& body,
                                     const ContactGroup& group,
                                     const ReducedBasis& basis,
                                     const MatrixX& Phi, const Vector3& center,
@@ -231,7 +231,7 @@ std::vector<ContactSurface> make_contact_surfaces(
 }
 
 std::vector<ContactSurface> make_contact_surfaces(
-    const SkinnedBody& body, const std::vector<ContactGroup>& groups,
+    const BodyWithSurface& body, const std::vector<ContactGroup>& groups,
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     const Progress& progress) {
   std::vector<ContactSurface> surfaces;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -30,7 +30,7 @@ void check(const MeshedBody& body, const Friction& friction) {
 fem::SparseMatrix combine(const MeshedBody& body, const Friction& friction) {
   fem::SparseMatrix drag = friction.mass_rate * body.M_s;
   if (friction.surface > 0.0)
-    drag += friction.surface * fem::assemble_skin(body.mesh);
+    drag += friction.surface * fem::assemble_surface_matrix(body.mesh);
   return drag;
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 #include "limber/reduction/state_balance.hpp"
 
 namespace limber::flexbody {

@@ -9,7 +9,7 @@
 
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/monitors/contact_start_observer.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -249,7 +249,7 @@ std::shared_ptr<const flexbody::ReducedBody> make_breathing_body(
   return body;
 }
 
-// A skin at rest, whose one mode lifts it by eta: sin(omega t) reaches 0.6.
+// A surface at rest, whose one mode lifts it by eta: sin(omega t) reaches 0.6.
 TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
   constexpr double kOmega = 20.0;
   for (const double step : {0.02, 0.001}) {
@@ -262,7 +262,7 @@ TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
     builder.add_pair(
         "bell/ball", bell, kWorld,
         make_contact(
-            ContactSide{Shape{std::make_shared<const Skin>(surface), {}},
+            ContactSide{Shape{std::make_shared<const MeshSurface>(surface), {}},
                         kSteel, 1.0},
             make_ball(0.05, kFixed), ContactParameters{}));
     const dynamics::SystemModel model = builder.build();

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
@@ -127,7 +127,7 @@ enum class Target { wall, box, rod };
 
 inline ContactSide make_rod_side(int modes) {
   const Matrix3 S = make_second_moments();
-  return {Shape{std::make_shared<const Skin>(make_end(modes)), {}},
+  return {Shape{std::make_shared<const MeshSurface>(make_end(modes)), {}},
           SurfaceMaterial{kModulus, 0.0}, kMass,
           S.trace() * Matrix3::Identity() - S};
 }

@@ -100,7 +100,7 @@ TEST(AcceleratingState, PushedBarShortensByHalfOfItsStaticAnswer) {
   EXPECT_TRUE(state.trust.is_linear());
 }
 
-TEST(DriftingState, BalancesTheLoadByTheDragOfMassAndSkin) {
+TEST(DriftingState, BalancesTheLoadByTheDragOfMassAndSurface) {
   const Bar bar{.corner = {0.2, -0.1, 0.3}};
   const MeshedBody body(make_recipe(bar), {});
   const Friction friction{.mass_rate = 0.7, .surface = 50.0};

@@ -36,7 +36,7 @@ struct MatrixNodeSet {
 
 /// What of a structure may touch others: solids that fill its shells and beams,
 /// and its solid elements.
-struct ModelSkin {
+struct ModelSurface {
   Mesh mesh;  ///< blocks alone; its nodes are those of the model
   std::vector<SolidMaterial> materials;  ///< by region, in SI units
   /// By node: the one that it moves with, of those on faces of shells and
@@ -71,7 +71,7 @@ struct MatrixModel {
   /// The last nodes, on faces of shells and outlines of beams, that are there
   /// for pictures and contact only.
   std::size_t drawn = 0;
-  ModelSkin skin;             ///< of structures; else empty
+  ModelSurface mesh_surface;  ///< of structures; else empty
   bool is_structure = false;  ///< of beams, shells and solids of a deck
   /// Of beams and shells, by their motion; empty: not known.
   RecoverSections recover_sections;

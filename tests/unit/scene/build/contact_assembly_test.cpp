@@ -368,7 +368,7 @@ TEST_F(TouchingBody, HasItsSurfaceWhereItsMeshIs) {
               HasSubstr("contact 'body/ball': the bodies overlap by 0.02 m"));
 }
 
-TEST_F(TouchingBody, LosesTheModesOfItsSkinAtLevelRigid) {
+TEST_F(TouchingBody, LosesTheModesOfItsSurfaceAtLevelRigid) {
   const BuiltScene built = build(Vector3(0.0, 0.0, 2.0), "",
                                  "[fidelity]\nlinks = { body = 'rigid' }\n");
   ASSERT_EQ(built.model.pairs.size(), 1U);
@@ -405,7 +405,7 @@ TEST_F(TouchingBody, TouchesBallsAloneWithoutConvexParts) {
             HasSubstr("surface 'skin' has no convex parts")));
 }
 
-TEST_F(TouchingBody, NeedsTheSecondOrderOfItsSkinAtLevelNonlinear) {
+TEST_F(TouchingBody, NeedsTheSecondOrderOfItsSurfaceAtLevelNonlinear) {
   flexbody::QuadraticManifold manifold;
   manifold.paired = {1, 2};
   manifold.Q = MatrixX::Zero(2, 3);

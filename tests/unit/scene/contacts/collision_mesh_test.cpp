@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene::collision_mesh_test {
@@ -106,7 +106,7 @@ TEST(CollisionMesh, IsTheSameOfEveryKindOfFile) {
     EXPECT_EQ(surface.x_B.cols(), 8) << name;
     EXPECT_EQ(surface.faces.size(), 12U) << name;
     EXPECT_NEAR(find_volume(surface), 1.0, 1e-14) << name;
-    EXPECT_TRUE(contact::Skin(surface).is_closed()) << name;
+    EXPECT_TRUE(contact::MeshSurface(surface).is_closed()) << name;
     EXPECT_DOUBLE_EQ(surface.patch_radius.maxCoeff(), 0.5) << name;
   }
 }

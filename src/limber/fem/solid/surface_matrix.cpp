@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -36,7 +36,7 @@ void widen(const Matrix3& H, LargestGradient& largest) {
 
 }  // namespace
 
-SparseMatrix assemble_skin(const Mesh& mesh) {
+SparseMatrix assemble_surface_matrix(const Mesh& mesh) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const BoundaryFace& face : mesh.boundary_faces) {
     const ElementBlock& block =
@@ -51,9 +51,9 @@ SparseMatrix assemble_skin(const Mesh& mesh) {
         entries.emplace_back(nodes[a], nodes[b], area(a, b));
   }
   const auto count = static_cast<Eigen::Index>(mesh.node_count());
-  SparseMatrix skin(count, count);
-  skin.setFromTriplets(entries.begin(), entries.end());
-  return skin;
+  SparseMatrix mesh_surface(count, count);
+  mesh_surface.setFromTriplets(entries.begin(), entries.end());
+  return mesh_surface;
 }
 
 LargestGradient calc_largest_gradient(const Mesh& mesh, const Matrix3X& u) {
