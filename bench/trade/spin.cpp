@@ -106,8 +106,8 @@ Point study_rate(double rate, const Context& context) {
   return point;
 }
 
-std::string to_cell(double share) {
-  return std::isfinite(share) ? to_percent(share) : "stopped";
+std::string to_cell(double fraction) {
+  return std::isfinite(fraction) ? to_percent(fraction) : "stopped";
 }
 
 void write_sweep(Page& page, const std::vector<Point>& points) {

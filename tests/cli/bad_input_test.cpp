@@ -342,9 +342,9 @@ TEST(BadInput, TruncatedReducedBody) {
             0);
   const std::string whole = read_text(place.folder() / "body.h5");
   ASSERT_GT(whole.size(), 1000U);
-  for (const double share : {0.3, 0.7, 0.99}) {
+  for (const double fraction : {0.3, 0.7, 0.99}) {
     place.write("cut.h5",
-                whole.substr(0, std::size_t(share * double(whole.size()))));
+                whole.substr(0, std::size_t(fraction * double(whole.size()))));
     expect_refused(place.limber("info cut.h5"), "cut.h5");
   }
 }

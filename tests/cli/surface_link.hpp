@@ -27,7 +27,7 @@ inline std::string make_surface_link(const std::string& mesh, double modulus,
 
 /// Expects that the end of a steel rod, `rod.geo` of 1 m along x from 0 and
 /// 1 cm^2, strikes a wall once as the wave solution says.
-/// @param impulse share by which it may differ; @param restitution at least
+/// @param impulse fraction by which it may differ; @param restitution at least
 /// @param options of the command @param surface that strikes
 inline void expect_wave_impact(const Workspace& place, double impulse,
                                double restitution,

@@ -226,7 +226,7 @@ std::vector<std::vector<const Sample*>> sort_samples(
   return sorted;
 }
 
-// Share of the flexibility that is the parts' own deformation.
+// Fraction of the flexibility that is the parts' own deformation.
 double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
                         const VectorX& lambda, const MatrixX& Phi,
                         const Vector3& normal) {

@@ -95,7 +95,8 @@ MatrixX calc_residual_matrix(const BodyWithSurface& surface_body,
                               Leftover(surface_body, basis).list_loads(loads));
 }
 
-double calc_hertz_share(const fem::ElasticMaterial& material, double radius) {
+double calc_hertz_fraction(const fem::ElasticMaterial& material,
+                           double radius) {
   const double nu = material.poisson_ratio;
   return 3.0 * (1.0 - nu * nu) / (5.0 * material.youngs_modulus * radius);
 }

@@ -38,7 +38,7 @@ namespace limber::flexbody {
 /// Equation   3 / (5 E' b), E' = E / (1 - nu^2)
 /// Source     u = pi p_0 (2 b^2 - r^2) / (4 E' b) [@johnson1985, sec. 3.4],
 ///            of which the mean of r^2 under the pressure is 2 b^2 / 5
-[[nodiscard]] double calc_hertz_share(const fem::ElasticMaterial& material,
-                                      double radius);
+[[nodiscard]] double calc_hertz_fraction(const fem::ElasticMaterial& material,
+                                         double radius);
 
 }  // namespace limber::flexbody

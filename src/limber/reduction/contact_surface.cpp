@@ -49,7 +49,7 @@ VectorX find_residual(const BodyWithSurface& body, const ReducedBasis& basis,
   for (Eigen::Index p = 0; p < corners; ++p) {
     const auto at = static_cast<std::size_t>(p);
     if (body.has_depth(surface.points[at].node))
-      residual[p] -= calc_hertz_share(group.material, patches[at].radius);
+      residual[p] -= calc_hertz_fraction(group.material, patches[at].radius);
   }
   for (Eigen::Index p = corners; p < residual.size(); ++p) {
     const std::array<int, 2>& ends =
@@ -89,24 +89,25 @@ BareSurface make_bare_surface(const fem::Mesh& mesh, const ContactGroup& group,
   return bare;
 }
 
-// Of each mode the share along the axis along which it moves the slice most,
+// Of each mode the fraction along the axis along which it moves the slice most,
 // of all modes' flexibility there.
 void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
                     ContactSlice& slice) {
   const MatrixX along =
       axes.transpose() * slice.motion_B.topLeftCorner(3, lambda.size());
   MatrixX squares(3, lambda.size());
-  MatrixX shares(3, lambda.size());
+  MatrixX fractions(3, lambda.size());
   for (int k = 0; k < 3; ++k) {
     const VectorX flexibility =
         along.row(k).transpose().cwiseAbs2().cwiseQuotient(lambda);
     squares.row(k) = find_roll_off(flexibility, lambda);
-    shares.row(k) = flexibility / std::max(flexibility.sum(),
-                                           std::numeric_limits<double>::min());
+    fractions.row(k) =
+        flexibility /
+        std::max(flexibility.sum(), std::numeric_limits<double>::min());
   }
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {
     int axis = 0;
-    (void)shares.col(i).maxCoeff(&axis);
+    (void)fractions.col(i).maxCoeff(&axis);
     const double square = squares(axis, i);
     const Vector3 moved = slice.motion_B.col(i).head<3>();
     slice.flexibility_B +=
@@ -203,7 +204,8 @@ FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
   full.means.first.push_back(0);
   for (Eigen::Index p = 0; p < n; ++p) {
     const ContactPatch& patch = bare.patches[static_cast<std::size_t>(p)];
-    full.surface.residual[p] = -calc_hertz_share(group.material, patch.radius);
+    full.surface.residual[p] =
+        -calc_hertz_fraction(group.material, patch.radius);
     full.means.nodes.insert(full.means.nodes.end(), patch.nodes.begin(),
                             patch.nodes.end());
     full.means.weights.insert(full.means.weights.end(), patch.weights.begin(),

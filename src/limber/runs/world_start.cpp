@@ -88,7 +88,7 @@ double find_size(const dynamics::SystemModel& model,
 /// All pairs that may touch. They may overlap as far as at the scenario's
 /// start, or by a fraction of the smaller body.
 std::vector<scene::PlacedPair> list_contacts(const scene::BuiltScene& built) {
-  constexpr double kMostShare = 1e-4;  // of the smaller body's size [-]
+  constexpr double kMostFraction = 1e-4;  // of the smaller body's size [-]
   std::vector<scene::PlacedPair> contacts;
   for (std::size_t i = 0; i < built.model.pairs.size(); ++i) {
     const dynamics::Pair& pair = built.model.pairs[i];
@@ -101,7 +101,7 @@ std::vector<scene::PlacedPair> list_contacts(const scene::BuiltScene& built) {
     const double size = std::min(find_size(built.model, pair.body_A),
                                  find_size(built.model, pair.body_B));
     contacts.push_back({.name = pair.name,
-                        .most_overlap = std::max(depth, kMostShare * size),
+                        .most_overlap = std::max(depth, kMostFraction * size),
                         .pair = dynamics::PairIndex(i)});
   }
   return contacts;

@@ -203,7 +203,7 @@ TEST(ContactRecord, WarnsOfAnImpactThatItsStepsDoNotResolveWhateverElseMoves) {
       const auto record = strike(
           company, dynamics::IntegratorKind::central_differences, &warnings);
       ASSERT_EQ(record.contacts.size(), 1U);
-      EXPECT_GT(record.contacts[0].energy.open_share(), 0.01);
+      EXPECT_GT(record.contacts[0].energy.unbalanced_fraction(), 0.01);
       EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                               [](const std::string& text) {
                                 return text.find("restitution is not met") !=

@@ -167,7 +167,7 @@ TEST(FarPairs, TouchOnTimeAtAnySpeedAndStep) {
 
 // Of bodies at rest it is the round-off of their places, in any unit of length.
 TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
-  const auto find_share = [](double size) {
+  const auto find_fraction = [](double size) {
     dynamics::SystemBuilder builder;
     const BodyIndex a = add_body(builder, "a");
     const BodyIndex b = add_body(builder, "b");
@@ -183,11 +183,11 @@ TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
     EXPECT_TRUE(touches.is_touching(0));
     return touches.find_tolerance(0, state, 1.0) / size;
   };
-  const double one = find_share(1.0);
+  const double one = find_fraction(1.0);
   EXPECT_GT(one, 1e-16);
   EXPECT_LT(one, 1e-12);
   for (const double size : {1e-6, 1e-3, 1e6}) {
-    EXPECT_NEAR(find_share(size), one, 1e-6 * one) << size;
+    EXPECT_NEAR(find_fraction(size), one, 1e-6 * one) << size;
   }
 }
 

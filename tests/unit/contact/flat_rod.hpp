@@ -60,9 +60,9 @@ inline flexbody::ContactPart make_end_part(int modes) {
   part.depth = 0.25 * kSide;
   part.residual = part.flexibility = find_residual(modes);
   for (int n = 1; n <= modes; ++n) {
-    const double share = roll_off(n, modes);
-    part.motion_B(0, n - 1) = share * mode_at(n, 0.0);
-    part.flexibility += (1.0 - share * share) * 2.0 * kLength /
+    const double fraction = roll_off(n, modes);
+    part.motion_B(0, n - 1) = fraction * mode_at(n, 0.0);
+    part.flexibility += (1.0 - fraction * fraction) * 2.0 * kLength /
                         (n * n * kPi * kPi * kModulus * kArea);
   }
   return part;

@@ -113,13 +113,13 @@ TEST(ContactSurface, IsAsSymmetricAsTheBody) {
       mirrored[axis] *= -1.0;
       EXPECT_NEAR(
           mesh_surface.residual[find(mirrored)], mesh_surface.residual[i],
-          1e-6 * calc_hertz_share(kSteel, mesh_surface.patch_radius[i]));
+          1e-6 * calc_hertz_fraction(kSteel, mesh_surface.patch_radius[i]));
     }
   }
 }
 
 /// Against the converged inverse. One shifted solution errs by the square of
-/// the shift's share in the first eigenvalue, about 1 %.
+/// the shift's fraction in the first eigenvalue, about 1 %.
 TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
   const Recipe recipe = make_contact_recipe(2);
   const MeshedBody body(recipe, {});
@@ -142,7 +142,7 @@ TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
     const double whole = f.dot(body.inverse.solve(f).col(0));
     const auto n = static_cast<Eigen::Index>(p);
     const double rest =
-        whole - calc_hertz_share(kSteel, mesh_surface.patch_radius[n]);
+        whole - calc_hertz_fraction(kSteel, mesh_surface.patch_radius[n]);
     EXPECT_NEAR(mesh_surface.residual[n], rest, 2e-4 * whole);
   }
 }
@@ -166,7 +166,7 @@ TEST(ContactSurface, OnAClampIsRigid) {
   // What Hertz's law would supply is taken away.
   for (Eigen::Index i = 0; i < root.residual.size(); ++i) {
     EXPECT_NEAR(root.residual[i],
-                -calc_hertz_share(kSteel, root.patch_radius[i]),
+                -calc_hertz_fraction(kSteel, root.patch_radius[i]),
                 1e-12 * std::abs(root.residual[i]));
   }
 }

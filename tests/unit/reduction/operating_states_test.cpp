@@ -168,9 +168,9 @@ TEST(LinearTrust, EndsWhereDisplacementOrRotationIsATenth) {
   // Bending: w / L = F L^2 / (3 E I), the tip's rotation 3/2 of it.
   const double I = bar.size[1] * std::pow(bar.size[2], 3) / 12.0;
   const double F = 0.05 * 3.0 * bar.material.youngs_modulus * I;
-  const auto trust = [&](double share) {
+  const auto trust = [&](double fraction) {
     return find_accelerating_state(
-               body, testing::spread(body, 1, {0.0, 0.0, share * F}))
+               body, testing::spread(body, 1, {0.0, 0.0, fraction * F}))
         .trust;
   };
   EXPECT_NEAR(trust(1.0).displacement, 0.05, 1e-3);

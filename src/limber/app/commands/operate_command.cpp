@@ -75,10 +75,10 @@ void write_fields(const OperatingAnswer& answer,
 /// Magnifies displacements to a tenth of the body's size if they are smaller.
 double find_exaggeration(const OperatingAnswer& answer) {
   constexpr double kSeen = 0.1;
-  const double share =
+  const double fraction =
       answer.figures.at("deformation").get<double>() / answer.size;
-  if (!(share > 0.0) || share > 0.2 * kSeen) return 1.0;
-  return std::pow(10.0, std::floor(std::log10(kSeen / share)));
+  if (!(fraction > 0.0) || fraction > 0.2 * kSeen) return 1.0;
+  return std::pow(10.0, std::floor(std::log10(kSeen / fraction)));
 }
 
 void write(const OperatingAnswer& answer, const std::string& title,

@@ -16,7 +16,7 @@ using dynamics::Fidelity;
 using scene::BasisChoice;
 
 /// Of the scenario's tolerance, for the reference [-].
-constexpr double kToleranceShare = 0.1;
+constexpr double kToleranceFraction = 0.1;
 
 bool has_flexible_link(const scene::Scene& scene) {
   return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
@@ -113,7 +113,7 @@ Choice find_reference(const Axes& axes, const ReferenceWish& wish,
   }
   reference.integrator = wish.integrator;
   if (!wish.step && steps_to_tolerance(axes, scene)) {
-    reference.tolerance_share = kToleranceShare;
+    reference.tolerance_fraction = kToleranceFraction;
   } else {
     reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
   }
@@ -175,11 +175,11 @@ void check_runs(const ComparisonPlan& plan, const Axes& axes) {
   }
 }
 
-// Its step, or its share of the tolerance; empty if they are the scenario's.
+// Its step, or its fraction of the tolerance; empty if they are the scenario's.
 std::string describe_accuracy(const Choice& choice) {
   if (choice.step) return fmt::format("{:g} s", *choice.step);
-  if (choice.tolerance_share == 1.0) return "";
-  return fmt::format("{:g} of the tolerance", choice.tolerance_share);
+  if (choice.tolerance_fraction == 1.0) return "";
+  return fmt::format("{:g} of the tolerance", choice.tolerance_fraction);
 }
 
 std::vector<std::string> list_details(const Choice& choice) {

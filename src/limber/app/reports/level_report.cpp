@@ -161,7 +161,7 @@ Json to_json(const runs::BodyLevel& level) {
         Json{{"contact", impact.pair},
              {"duration", impact.duration},
              {"highest_frequency_hz", impact.frequency},
-             {"periods", impact.share()},
+             {"periods", impact.fraction()},
              {"enough", impact.is_enough()},
              {"modes", impact.modes},
              {"modes_needed",

@@ -88,7 +88,7 @@ void read_steps(const Json& json, RunSummary& run) {
 
 void read_energy(const Json& json, RunSummary& run) {
   if (json.empty()) return;
-  run.open_share = json.at("open_share").get<double>();
+  run.unbalanced_fraction = json.at("open_share").get<double>();
   run.open_place = read_text(json.at("place"));
   for (const Json& row : json.at("rows")) {
     run.rows.push_back(

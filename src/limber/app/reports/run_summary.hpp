@@ -56,7 +56,7 @@ struct RunSummary {
   std::map<std::string, double> by_pair;  ///< counts of parts by its impacts
   std::vector<std::string> meshed;        ///< bodies that touch by a mesh
   std::vector<dynamics::Event> events;
-  std::optional<double> open_share;  ///< largest energy error [-]
+  std::optional<double> unbalanced_fraction;  ///< largest energy error [-]
   std::string open_place;
   std::vector<dynamics::EnergyRow> rows;
   std::vector<Level> levels;

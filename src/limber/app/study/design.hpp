@@ -30,7 +30,7 @@ inline constexpr int kMostRuns = 10'000'000;
 /// @throws InputError naming a factor whose values do not suit the design.
 [[nodiscard]] Design make_design(const Study& study);
 
-/// A factor's value at a share u in (0, 1) of its distribution.
+/// A factor's value at a fraction u in (0, 1) of its distribution.
 [[nodiscard]] std::string find_value(const Factor& factor, double u);
 
 /// The share u of the standard normal distribution is below this, u in (0, 1).

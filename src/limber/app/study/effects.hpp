@@ -16,7 +16,8 @@ struct Interval {
   [[nodiscard]] double half_width() const { return 0.5 * (high - low); }
 };
 
-/// Main and total effect of a factor on a response: shares of its variance [-].
+/// Main and total effect of a factor on a response: fractions of its variance
+/// [-].
 struct Effect {
   double main = 0.0;   ///< [-]
   double total = 0.0;  ///< [-]
@@ -27,7 +28,7 @@ struct Effect {
   std::optional<std::size_t> samples_needed = {};
 };
 
-/// Intervals with a larger half width tell nothing about a share [-].
+/// Intervals with a larger half width tell nothing about a fraction [-].
 inline constexpr double kWidestEffect = 0.25;
 /// The intervals of fewer samples are too narrow.
 inline constexpr std::size_t kFewestSamples = 32;

@@ -82,8 +82,8 @@ Vector3 find_turn_W(const FrictionMemory& memory, const BodyTurns& turns) {
   const double sine = turn.vec().norm();
   if (sine == 0.0) return Vector3::Zero();
   const double angle = 2.0 * std::atan2(sine, std::abs(turn.w()));
-  const double share = std::copysign(angle / sine, turn.w());
-  return share * (turns.R_WA * turn.vec());
+  const double fraction = std::copysign(angle / sine, turn.w());
+  return fraction * (turns.R_WA * turn.vec());
 }
 
 }  // namespace limber::contact

@@ -129,14 +129,15 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Vector6 s_by_twist = slope * 2.0 / N * d;
   const double normal = -s * n.dot(d.head<3>());
   // Nothing pulls.
-  const double share =
+  const double fraction =
       out.normal_force + normal < 0.0 ? -out.normal_force / normal : 1.0;
-  out.wrench.wrench_W -= share * s * d;
+  out.wrench.wrench_W -= fraction * s * d;
   out.wrench.stiffness_W +=
-      share * d * (s / patch.load() * load_by_motion + s_by_motion).transpose();
-  out.wrench.damping_W += share * (s * D + d * s_by_twist.transpose());
+      fraction * d *
+      (s / patch.load() * load_by_motion + s_by_motion).transpose();
+  out.wrench.damping_W += fraction * (s * D + d * s_by_twist.transpose());
   out.normal_force = std::max(out.normal_force + normal, 0.0);
-  out.damped = share * s * d.dot(in.twist_W);
+  out.damped = fraction * s * d.dot(in.twist_W);
 }
 
 double PatchLaw::find_radius(const Patch& patch,

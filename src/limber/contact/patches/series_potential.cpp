@@ -24,10 +24,10 @@ std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
   const Vector3 n = g / N;
   const double stiffness = n.dot(patch.hessian_W.topLeftCorner<3, 3>() * n);
   // 1 / (p + 1)
-  const double share = 1.0 - patch.energy * stiffness / (N * N);
-  const double p = 1.0 / share - 1.0;
+  const double fraction = 1.0 - patch.energy * stiffness / (N * N);
+  const double p = 1.0 / fraction - 1.0;
   if (!(p > 0.5 && p < 4.0)) return std::nullopt;
-  const double give = n.dot(R * n) * N * share * N / patch.energy;
+  const double give = n.dot(R * n) * N * fraction * N / patch.energy;
   double low = 0.0;
   double high = 1.0;
   for (int i = 0; i < kHalvings; ++i) {

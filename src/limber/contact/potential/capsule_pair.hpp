@@ -29,7 +29,8 @@ struct CapsuleTouch {
 ///            x of depth t - x^2 / (2 R) from the plane across its axis;
 ///            W = (8 / 15) sqrt(5 / (2 pi)) E* h sqrt(M_4), h of Hertz's
 ///            ellipse [@johnson1985] whose radii of curvature have the product
-///            and sum of those that M_4, M_5 and the shares of ends in M_4 give
+///            and sum of those that M_4, M_5 and the fractions of ends in M_4
+///            give
 /// Limits     depths small beside the radii; the Hessian by differences
 class CapsulePair {
  public:

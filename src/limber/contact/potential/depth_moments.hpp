@@ -22,8 +22,8 @@ struct DepthMoments {
   double M = 0.0;                ///< [m^6]
   Vector6 m1 = Vector6::Zero();  ///< [m^5, m^6]
   Matrix6 m2 = Matrix6::Zero();  ///< [m^4, m^5; m^5, m^6]
-  /// int 12 t^2 dV of each face's share along the resultant, n . m1 / |m1| >=
-  /// 0, here and below [m^5].
+  /// int 12 t^2 dV of each face's fraction along the resultant, n . m1 / |m1|
+  /// >= 0, here and below [m^5].
   double pressure = 0.0;
   Vector3 first = Vector3::Zero();   ///< int 12 t^2 r dV [m^6]
   Matrix3 second = Matrix3::Zero();  ///< int 12 t^2 r r' dV [m^7]

@@ -195,8 +195,8 @@ class SmoothPair::Touch {
       at = end_ * half;
       // By the rule of Illinois.
       for (int i = 0, side = 0; i < 100 && end_ == 0.0; ++i) {
-        const double share = i % 4 == 3 ? 0.5 : of_low / (of_low - of_high);
-        at = low + share * (high - low);
+        const double fraction = i % 4 == 3 ? 0.5 : of_low / (of_low - of_high);
+        at = low + fraction * (high - low);
         if (!(high - low > 1e-15 * half)) break;
         const double now = slope(at);
         if (std::abs(now) < 1e-15) break;
@@ -315,17 +315,17 @@ class SmoothPair::Touch {
       place = Jet(end_ * A_.half_length) + dot(axis_, at.n) * P.det() / P.yy;
     }
     const Jet by_width = invert(sqrt(at_end.radius * at.depth));
-    const auto find_share = [&](double end) {
+    const auto find_fraction = [&](double end) {
       const Jet x = (end * place - Jet(A_.half_length)) * by_width;
       const Blend b = blend(x.value);
       return x.apply(b.value, b.slope, b.bend);
     };
-    const Jet share = find_share(-1.0) + find_share(1.0);
-    if (share.value == 1.0 && share.slope.isZero(0.0)) return at_end;
+    const Jet fraction = find_fraction(-1.0) + find_fraction(1.0);
+    if (fraction.value == 1.0 && fraction.slope.isZero(0.0)) return at_end;
     const HertzForm on_side =
         find_form(own + Plane2{Jet(0.0), Jet(0.0), Jet(1.0 / r)});
     const auto pass = [&](const Jet& from, const Jet& to) {
-      return from + share * (to - from);
+      return from + fraction * (to - from);
     };
     return {pass(on_side.radius, at_end.radius),
             pass(on_side.stiffness, at_end.stiffness)};

@@ -240,7 +240,7 @@ void SurfaceContact::integrate_parts(const Vector3& o, Sums& sums) const {
 
 DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
                                        bool has_derivatives) const {
-  // Share of M next to an edge of `soft`, from which on ln u, whose second
+  // Fraction of M next to an edge of `soft`, from which on ln u, whose second
   // derivative jumps there, counts as ln (C / x) of the motion x.
   constexpr double kEdged = 1e-2;
   KeptSums kept;
@@ -263,9 +263,9 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
   Weights10 pressure = Weights10::Zero();
   Slopes slopes = Slopes::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double share = way[static_cast<Eigen::Index>(k)];
-    pressure += share * sums.cubed[k];
-    slopes += share * sums.by_motion[k];
+    const double fraction = way[static_cast<Eigen::Index>(k)];
+    pressure += fraction * sums.cubed[k];
+    slopes += fraction * sums.by_motion[k];
   }
   out.pressure = pressure[0];
   out.first = pressure.segment<3>(1);

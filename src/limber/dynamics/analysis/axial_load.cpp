@@ -132,7 +132,7 @@ AxialState AxialLoad::calc_state(const SystemState& state, Side side,
   for (int k = 0; k < 3; ++k) {
     if (loads_[k] == 0.0) continue;
     const double along = axes_.col(k).dot(T * axes_.col(k));
-    include(largest.share, along / loads_[k]);
+    include(largest.fraction, along / loads_[k]);
     include(largest.strain, along * softness_[k]);
   }
   return largest;

@@ -9,8 +9,8 @@ namespace limber::dynamics {
 
 /// Axial load and strain of a body at one instant.
 struct AxialState {
-  double share = 0.0;   ///< of what makes it buckle, > 0 under tension [-]
-  double strain = 0.0;  ///< mean, > 0 under tension [-]
+  double fraction = 0.0;  ///< of what makes it buckle, > 0 under tension [-]
+  double strain = 0.0;    ///< mean, > 0 under tension [-]
 };
 
 /// Axial load of a body, compared with its buckling load and its axial

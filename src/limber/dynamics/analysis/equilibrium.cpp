@@ -78,7 +78,7 @@ class Continuation {
     constexpr double kOnTheWay = 1e-6;
     constexpr int kEasy = 6;  // most iterations after which the load step grows
     double reached = 0.0;
-    double step = settings_.largest_share;
+    double step = settings_.largest_fraction;
     int steps = 0;
     while (reached < 1.0) {
       const double next = std::min(1.0, reached + step);
@@ -93,12 +93,12 @@ class Continuation {
         ++steps;
         report(progress, "equilibrium", reached);
         if (newton_.iterations() - before <= kEasy) {
-          step = std::min(2.0 * step, settings_.largest_share);
+          step = std::min(2.0 * step, settings_.largest_fraction);
         }
         continue;
       }
       step = 0.5 * (next - reached);
-      if (step < settings_.smallest_share)
+      if (step < settings_.smallest_fraction)
         fail(reached, newton_.lengths().measure_forces(unbalanced).maxCoeff());
     }
     return steps;

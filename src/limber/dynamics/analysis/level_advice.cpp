@@ -12,7 +12,7 @@
 namespace limber::dynamics {
 namespace {
 
-/// Share of the buckling load that the estimate cannot resolve [-].
+/// Fraction of the buckling load that the estimate cannot resolve [-].
 constexpr double kNearBuckling = 0.1;
 
 void check_setting(const std::optional<double>& value, const char* what,
@@ -50,7 +50,7 @@ VectorX find_modal_drift(const BodyModel& body, const BodyPeaks& peaks,
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   const VectorX omega = lambda.cwiseSqrt();
   const double Omega = peaks.Omega.value;
-  const auto bound = [](double share) { return std::min(share, 2.0); };
+  const auto bound = [](double fraction) { return std::min(fraction, 2.0); };
   VectorX drift(body.modes);
   for (int k = 0; k < body.modes; ++k) {
     drift[k] = bound(time * Omega * Omega / omega[k]) * peaks.oscillation[k];
@@ -97,7 +97,7 @@ double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
   return peaks.mode_sizes.dot(answer + drift);
 }
 
-/// Share of the stiffness that axial load gives and `coupled` lacks, by
+/// Fraction of the stiffness that axial load gives and `coupled` lacks, by
 /// differences of its frequencies and deflections from those of the closed
 /// forms (docs/theory/choosing.md). The frame of a held body has the rest.
 double find_missing(const BodyPeaks& peaks) {
@@ -158,12 +158,12 @@ double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
 /// "1.2e-06 m".
 std::string metres(double value) { return fmt::format("{:.2g} m", value); }
 
-/// Whether the user neglects an error, or it is a small share of the
+/// Whether the user neglects an error, or it is a small fraction of the
 /// deformation.
 bool is_negligible(double error, const BodyPeaks& peaks,
                    const LevelLimits& limits) {
   return error <=
-         std::max(limits.displacement, kLargestShare * peaks.total.value);
+         std::max(limits.displacement, kLargestFraction * peaks.total.value);
 }
 
 /// Why linear elasticity is insufficient, or even `nonlinear`.
@@ -276,8 +276,9 @@ LevelLimits find_limits(const AdviceSettings& settings,
                         const flexbody::ReducedBody& body) {
   check(settings);
   const double size = body.size.maxCoeff();
-  return {settings.displacement.value_or(kNeglectedShare * size),
-          settings.linear_limit.value_or(kLinearShare * size), settings.force};
+  return {settings.displacement.value_or(kNeglectedFraction * size),
+          settings.linear_limit.value_or(kLinearFraction * size),
+          settings.force};
 }
 
 LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {

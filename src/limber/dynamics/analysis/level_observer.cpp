@@ -209,21 +209,21 @@ void LevelObserver::include_axial_load(const SystemState& state, Side side,
       observed.axial.calc_state(state, side, terms_);
   const double strain = std::abs(mean_strain);
   const double time = state.t - observed.last_time;
-  const double share =
+  const double fraction =
       observed.has_begun
-          ? now + (observed.last_share - now) *
+          ? now + (observed.last_fraction - now) *
                       std::exp(-time * observed.axial.frequency())
           : now;
   BodyPeaks& peaks = observed.peaks;
-  include_largest(peaks.tension, share, state.t);
-  include_largest(peaks.compression, -share, state.t);
+  include_largest(peaks.tension, fraction, state.t);
+  include_largest(peaks.compression, -fraction, state.t);
   if (observed.has_begun) {
     peaks.axial_time +=
-        0.5 * (std::abs(share) + std::abs(observed.last_share)) * time;
+        0.5 * (std::abs(fraction) + std::abs(observed.last_fraction)) * time;
     peaks.strain_time += 0.5 * (strain + observed.last_strain) * time;
   }
   include_largest(peaks.strain, strain, state.t);
-  observed.last_share = share;
+  observed.last_fraction = fraction;
   observed.last_strain = strain;
 }
 
@@ -347,8 +347,8 @@ void LevelObserver::exchange_memory(Archive& archive, Observed& observed) {
           observed.last_slip, observed.slipped);
   BodyPeaks& peaks = observed.peaks;
   archive(peaks.angle, peaks.Omega_B, peaks.turned_aside, peaks.oscillation,
-          peaks.modes, peaks.axial_time, peaks.strain_time, observed.last_share,
-          observed.last_strain);
+          peaks.modes, peaks.axial_time, peaks.strain_time,
+          observed.last_fraction, observed.last_strain);
   for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.strain,
                      &peaks.turn, &peaks.relative_turn}) {
     archive(peak->value, peak->time);

@@ -22,7 +22,7 @@ using joints::JointCoordinates;
 using joints::JointShape;
 using joints::RelativeMotion;
 
-constexpr double kClosed = 1e-6;  // share of the size or speed; [rad]
+constexpr double kClosed = 1e-6;  // fraction of the size or speed; [rad]
 // Of velocities, relative to the largest of the bodies.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 

@@ -51,11 +51,11 @@ void calc_mean_frame(const SystemModel& model, const FullModel& full,
 void add_mean_wrench(const flexbody::FullBody& mesh, const MeanFrame& frame,
                      const Vector3& force_H, const Vector3& moment_H,
                      Eigen::Ref<Matrix3X> nodal) {
-  const Vector3 share = force_H / mesh.node_mass.sum();
+  const Vector3 fraction = force_H / mesh.node_mass.sum();
   const Vector3 turn_B = frame.R_HB.transpose() * (frame.spread * moment_H);
   for (Eigen::Index i = 0; i < nodal.cols(); ++i) {
     const Vector3 y = mesh.first_moment.col(i);
-    nodal.col(i) += mesh.node_mass[i] * share + frame.R_HB * turn_B.cross(y);
+    nodal.col(i) += mesh.node_mass[i] * fraction + frame.R_HB * turn_B.cross(y);
   }
 }
 

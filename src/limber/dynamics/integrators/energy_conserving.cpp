@@ -253,9 +253,9 @@ void EnergyConserving::turn_increments() {
   }
 }
 
-void EnergyConserving::apply_increments(double h, double share) {
-  x_ *= share;
-  add_to_applied(matrix_.wrench_increments(), mean_, share);
+void EnergyConserving::apply_increments(double h, double fraction) {
+  x_ *= fraction;
+  add_to_applied(matrix_.wrench_increments(), mean_, fraction);
   get_velocities(model_, middle_, step_);
   step_ += x_ / h;
   set_velocities(model_, step_, middle_);
@@ -354,7 +354,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     ++result.iterations;
     if (!progress_.is_finite()) fail(end, "the motion is no longer finite");
     const bool is_damped = progress_.reverses_last();
-    apply_increments(h, is_damped ? kReversedShare : 1.0);
+    apply_increments(h, is_damped ? kReversedFraction : 1.0);
     advance(state, h, end);
     set_motion(h);
     progress_.measure_motion(next_, mean_, step_);

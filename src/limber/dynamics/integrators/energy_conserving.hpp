@@ -77,7 +77,7 @@ class EnergyConserving final : public Integrator {
   void factor(const SystemState& from);
   void add_losses(const SystemState& from, double h);
   void turn_increments();
-  void apply_increments(double h, double share);
+  void apply_increments(double h, double fraction);
   void set_motion(double h);
   [[nodiscard]] double find_noise(const GroupProgress& group) const;
   void judge();

@@ -66,7 +66,8 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
             Vector6::Zero()) {
   if (settings.estimates_error) scale_.emplace(model);
   const bool conserves = !settings.implicit_euler && settings.rho_inf == 1.0;
-  if (conserves && settings.tolerance == 0.0) settings_.tolerance = kLeastShare;
+  if (conserves && settings.tolerance == 0.0)
+    settings_.tolerance = kLeastFraction;
 }
 
 bool GeneralizedAlpha::damp(UnresolvedMotion motion) {
@@ -103,8 +104,8 @@ void GeneralizedAlpha::fit_memory(double h) {
   const double ratio = memory_step_ > 0.0 ? h / memory_step_ : 1.0;
   memory_step_ = h;
   if (std::abs(ratio - 1.0) <= kSame) return;
-  const double share = ratio <= kMostGrowth ? ratio : 0.0;
-  a_ = vdot_ + share * (a_ - vdot_);
+  const double fraction = ratio <= kMostGrowth ? ratio : 0.0;
+  a_ = vdot_ + fraction * (a_ - vdot_);
 }
 
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
@@ -339,7 +340,7 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     }
     const bool halves =
         corrections == Corrections::exact_halved && progress_.reverses_last();
-    apply_increments(h, halves ? kReversedShare : 1.0);
+    apply_increments(h, halves ? kReversedFraction : 1.0);
     advance(from, h, end);
     progress_.measure_motion(next_, terms_, motion_);
     if (halves && iteration < settings_.max_iterations) continue;

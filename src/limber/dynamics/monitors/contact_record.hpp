@@ -29,7 +29,7 @@ struct ImpactEnergy {
   double roundoff = 0.0;  ///< of the error, at most [J]
 
   /// Error over the energy of the impact [-]; 0 if it may be round-off.
-  [[nodiscard]] double open_share() const {
+  [[nodiscard]] double unbalanced_fraction() const {
     const double all = std::max(std::abs(in), std::abs(returned));
     return std::abs(error) > roundoff && all > 0.0 ? std::abs(error) / all
                                                    : 0.0;

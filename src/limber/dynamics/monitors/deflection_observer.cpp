@@ -98,14 +98,14 @@ std::string DeflectionObserver::describe(const Hold& hold) const {
   const std::string& joint = model_.couplers[hold.coupler].name;
   const std::string& body = model_.bodies[hold.body].name;
   if (hold.give / hold.size >= hold.turn) {
-    const double share = hold.give / hold.size;
+    const double fraction = hold.give / hold.size;
     return fmt::format(
         "joint '{}' deflects by {:.3g} m at t = {:.6g} s in constrained "
         "directions, {:.3g} % of the size of body '{}' ({:.3g} m); a "
         "translational stiffness of {:.2g} N/m in place of {:.2g} N/m would "
         "limit it to 0.1 %",
-        joint, hold.give, hold.give_time, 100.0 * share, body, hold.size,
-        hold.stiffness.translational * share / kLargest,
+        joint, hold.give, hold.give_time, 100.0 * fraction, body, hold.size,
+        hold.stiffness.translational * fraction / kLargest,
         hold.stiffness.translational);
   }
   return fmt::format(
@@ -118,24 +118,24 @@ std::string DeflectionObserver::describe(const Hold& hold) const {
       hold.stiffness.rotational);
 }
 
-std::string DeflectionObserver::describe_share(const Hold& hold) const {
+std::string DeflectionObserver::describe_fraction(const Hold& hold) const {
   return fmt::format(
       "joint '{}' is soft relative to the bodies: at t = {:.6g} s it stores "
       "{:.3g} J in its constrained directions, {:.3g} % of the elastic energy "
       "of the bodies connected to it; {:.2g} times its stiffness would keep it "
       "at {:g} %",
       model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
-      100.0 * hold.share(), hold.share() / kLargestShare,
-      100.0 * kLargestShare);
+      100.0 * hold.fraction(), hold.fraction() / kLargestFraction,
+      100.0 * kLargestFraction);
 }
 
-std::string DeflectionObserver::describe_shares(
+std::string DeflectionObserver::describe_fractions(
     std::vector<const Hold*> soft) const {
   constexpr std::size_t kMost = 4;
   std::stable_sort(soft.begin(), soft.end(), [](const Hold* a, const Hold* b) {
-    return a->share() > b->share();
+    return a->fraction() > b->fraction();
   });
-  std::string text = describe_share(*soft.front());
+  std::string text = describe_fraction(*soft.front());
   for (std::size_t i = 1; i < std::min(kMost, soft.size()); ++i) {
     text += fmt::format("{} '{}'", i == 1 ? "; also soft:" : ",",
                         model_.couplers[soft[i]->coupler].name);
@@ -151,11 +151,12 @@ std::vector<std::string> DeflectionObserver::find_warnings() const {
   for (const Hold& hold : holds_) {
     if (hold.largest() > kLargest) {
       warnings.push_back(describe(hold));
-    } else if (hold.largest() > kNegligible && hold.share() > kLargestShare) {
+    } else if (hold.largest() > kNegligible &&
+               hold.fraction() > kLargestFraction) {
       soft.push_back(&hold);
     }
   }
-  if (!soft.empty()) warnings.push_back(describe_shares(std::move(soft)));
+  if (!soft.empty()) warnings.push_back(describe_fractions(std::move(soft)));
   return warnings;
 }
 

@@ -31,13 +31,14 @@ class DeflectionObserver {
   /// The end of a step. @param terms at `state`
   void include(const SystemState& state, const SystemTerms& terms);
   /// One for each joint displaced by more than kLargest, and one for all whose
-  /// share of the elastic energy exceeds kLargestShare, the largest first.
+  /// fraction of the elastic energy exceeds kLargestFraction, the largest
+  /// first.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
   /// Of the elastic energy of all bodies that are connected to it [-].
-  static constexpr double kLargestShare = 0.01;
-  /// Smaller displacements have no share, of a body's size [-].
+  static constexpr double kLargestFraction = 0.01;
+  /// Smaller displacements have no fraction, of a body's size [-].
   static constexpr double kNegligible = 1e-6;
 
   /// Adds the energy that each joint may lose in vibration that no step
@@ -72,14 +73,14 @@ class DeflectionObserver {
     // The larger of both, relative to the body's size or in [rad].
     [[nodiscard]] double largest() const { return std::max(give / size, turn); }
     // Of the elastic energy; none without any.
-    [[nodiscard]] double share() const {
+    [[nodiscard]] double fraction() const {
       return elastic > 0.0 ? energy / elastic : 0.0;
     }
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
-  [[nodiscard]] std::string describe_share(const Hold& hold) const;
+  [[nodiscard]] std::string describe_fraction(const Hold& hold) const;
   /// @param soft at least one
-  [[nodiscard]] std::string describe_shares(
+  [[nodiscard]] std::string describe_fractions(
       std::vector<const Hold*> soft) const;
 
   const SystemModel& model_;

@@ -78,8 +78,8 @@ class EnergyGroups {
     double work = 0.0;                   // at the last include() [J]
     double throughput = 0.0;             // [J]
     Extreme drift;                       // [J]
-    Eigen::Index worst = -1;             // row of its largest share
-    double share = 0.0;                  // [J]
+    Eigen::Index worst = -1;             // row of its largest error
+    double place_error = 0.0;            // [J]
     EnergyGrowthObserver observer;
   };
   friend void exchange(Archive& archive, Group& group);
@@ -99,7 +99,7 @@ class EnergyGroups {
   void join_attachment(Eigen::Index row, AttachmentIndex attachment);
   void meet(Group& group, const Group& other) const;
   void include_extremes(std::size_t root);
-  void note_share(std::size_t root, const std::vector<EnergyAccount>& accounts);
+  void note_place(std::size_t root, const std::vector<EnergyAccount>& accounts);
 
   const SystemModel& model_;
   EnergyRows rows_;

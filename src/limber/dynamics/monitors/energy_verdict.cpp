@@ -10,8 +10,8 @@
 namespace limber::dynamics {
 namespace {
 
-// Smaller shares of the drift do not show its origin [-].
-constexpr double kNamedShare = 0.1;
+// Smaller fractions of the drift do not show its origin [-].
+constexpr double kNamedFraction = 0.1;
 
 // "12 % of the energy ... are lost by t = ...".
 std::string describe_energy(const EnergyDrift& energy) {
@@ -19,11 +19,11 @@ std::string describe_energy(const EnergyDrift& energy) {
   std::string text = fmt::format(
       "{:.3g} J {} by t = {:.6g} s, {:.3g} % of the throughput of {:.3g} J",
       std::abs(drift), drift < 0.0 ? "lost" : "gained", energy.drift.time,
-      100.0 * find_open_share(energy), energy.throughput);
+      100.0 * find_unbalanced_fraction(energy), energy.throughput);
   if (!energy.place.empty() &&
-      std::abs(energy.share) > kNamedShare * std::abs(drift)) {
+      std::abs(energy.place_error) > kNamedFraction * std::abs(drift)) {
     text += fmt::format("; the largest part, {:.3g} J, in {}",
-                        std::abs(energy.share), energy.place);
+                        std::abs(energy.place_error), energy.place);
   }
   return text;
 }
@@ -56,7 +56,7 @@ std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
 
 }  // namespace
 
-double find_open_share(const EnergyDrift& energy) {
+double find_unbalanced_fraction(const EnergyDrift& energy) {
   const double drift = std::abs(energy.drift.value);
   if (!(drift > energy.roundoff) || energy.throughput == 0.0) return 0.0;
   return drift / energy.throughput;
@@ -65,7 +65,7 @@ double find_open_share(const EnergyDrift& energy) {
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& record,
                     std::vector<std::string>& warnings) {
   const EnergyDrift& energy = record.worst;
-  if (!(find_open_share(energy) > kToldDrift)) return;
+  if (!(find_unbalanced_fraction(energy) > kToldDrift)) return;
   warnings.push_back(fmt::format("energy error: {}; {}",
                                  describe_energy(energy),
                                  advise(integrator, energy)));
@@ -73,7 +73,7 @@ void warn_of_energy(IntegratorKind integrator, const EnergyRecord& record,
 
 void check_energy(IntegratorKind integrator, const EnergyRecord& record) {
   const EnergyDrift& energy = record.worst;
-  if (!(find_open_share(energy) > kMostDrift)) return;
+  if (!(find_unbalanced_fraction(energy) > kMostDrift)) return;
   if (is_forgiven(integrator, energy)) return;
   throw NumericalError(fmt::format("the energy does not balance: error {}; {}",
                                    describe_energy(energy),

@@ -261,11 +261,12 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
   for (const ContactRecord& record : records) {
     if (!record.is_impact()) continue;
     Worst& worst = pairs[record.pair];
-    const double share = record.energy.open_share();
+    const double fraction = record.energy.unbalanced_fraction();
     ++worst.impacts;
-    if (!(share > kToldDrift)) continue;
+    if (!(fraction > kToldDrift)) continue;
     ++worst.open;
-    if (worst.record == nullptr || share > worst.record->energy.open_share()) {
+    if (worst.record == nullptr ||
+        fraction > worst.record->energy.unbalanced_fraction()) {
       worst.record = &record;
     }
   }
@@ -277,7 +278,8 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
         "{}, {:.3g} % of its {:.3g} J, so that its restitution is not met; {} "
         "of {} impacts have more than {:g} %; {}",
         name, worst.record->time, std::abs(energy.error),
-        energy.error < 0.0 ? "lost" : "gained", 100.0 * energy.open_share(),
+        energy.error < 0.0 ? "lost" : "gained",
+        100.0 * energy.unbalanced_fraction(),
         std::max(energy.in, energy.returned), worst.open, worst.impacts,
         100.0 * kToldDrift, advise_on_impacts(scheme_)));
   }

@@ -68,7 +68,7 @@ std::string describe(const ImpactSpectrum& spectrum) {
       "contact '{}': an impact lasts about {:.3g} s, and the {} modes of body "
       "'{}' end at {:.4g} Hz, {:.2g} periods of which fit into it",
       spectrum.pair, spectrum.duration, spectrum.modes, spectrum.body,
-      spectrum.frequency, spectrum.share());
+      spectrum.frequency, spectrum.fraction());
   if (spectrum.is_enough()) return found + ": they respond to it";
   const std::string more =
       spectrum.needed
@@ -78,7 +78,7 @@ std::string describe(const ImpactSpectrum& spectrum) {
       "{}, {:g} are needed: the remaining deformation is quasi-static, so "
       "forces may be wrong by 10 to 20 %{}{}",
       found, ImpactSpectrum::kEnough,
-      spectrum.share() < ImpactSpectrum::kPoor
+      spectrum.fraction() < ImpactSpectrum::kPoor
           ? ", and impulses by 20 % or more"
           : "",
       more);

@@ -71,7 +71,7 @@ std::vector<JointResponse> find_joint_responses(
 }
 
 std::string describe(const JointResponse& response) {
-  const double ratio = JointResponse::kEnough / response.share();
+  const double ratio = JointResponse::kEnough / response.fraction();
   return fmt::format(
       "joint '{}' is slow relative to the impact of contact '{}': it vibrates "
       "at {:.4g} Hz and the impact lasts about {:.3g} s, so it does not "

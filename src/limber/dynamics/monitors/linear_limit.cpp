@@ -31,8 +31,8 @@ Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
 }
 
 // Eigenvalues of B against the stiffness of the undeformed body.
-VectorX find_shares(const flexbody::ModalElasticity& elasticity,
-                    const MatrixX& B) {
+VectorX find_fractions(const flexbody::ModalElasticity& elasticity,
+                       const MatrixX& B) {
   MatrixX scaled;
   if (flexbody::is_diagonal_at_rest(elasticity)) {
     const VectorX scale =
@@ -59,23 +59,23 @@ double find_harmless_square(const BodyModel& body) {
   return kHarmless * kHarmless * lowest;
 }
 
-// Shares of stiffness that a spin with these products cancels.
-VectorX find_shares(const BodyModel& body, const Vector6& half_w_squared) {
+// Fractions of stiffness that a spin with these products cancels.
+VectorX find_fractions(const BodyModel& body, const Vector6& half_w_squared) {
   MatrixX B(body.modes, body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
       B(k, l) = half_w_squared.dot(body.inertia->J2(k).row(l));
     }
   }
-  return find_shares(body.elasticity, B);
+  return find_fractions(body.elasticity, B);
 }
 
-// The largest magnitude of a share for each product of spins [s^2/rad^2].
-Vector6 find_unit_shares(const BodyModel& body) {
+// The largest magnitude of a fraction for each product of spins [s^2/rad^2].
+Vector6 find_unit_fractions(const BodyModel& body) {
   Vector6 units;
   for (int i = 0; i < 6; ++i) {
     units[i] =
-        find_shares(body, Vector6(Vector6::Unit(i))).cwiseAbs().maxCoeff();
+        find_fractions(body, Vector6(Vector6::Unit(i))).cwiseAbs().maxCoeff();
   }
   return units;
 }
@@ -121,7 +121,7 @@ double find_turn(const SystemModel& model, const SystemState& state,
 
 double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
   if (!(w_WB_B.squaredNorm() > find_harmless_square(body))) return 0.0;
-  return find_shares(body, half_square(w_WB_B)).maxCoeff();
+  return find_fractions(body, half_square(w_WB_B)).maxCoeff();
 }
 
 std::optional<std::string> describe_softening(const BodyModel& body,
@@ -175,8 +175,8 @@ bool LinearLimit::may_exceed(const SystemState& state, Body& body,
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
                                     std::vector<std::string>& warnings) const {
   if (body.size == 0.0) return;
-  const double share = body.was_told_large ? kAbsurdDeformation : kLarge;
-  if (!may_exceed(state, body, share * body.size)) return;
+  const double fraction = body.was_told_large ? kAbsurdDeformation : kLarge;
+  if (!may_exceed(state, body, fraction * body.size)) return;
   const BodyModel& model = model_.bodies[body.index];
   const double deformation = body.displacement;
   const bool is_nonlinear = is_quadratic(model);
@@ -215,13 +215,13 @@ bool LinearLimit::may_soften(const SystemState& state, Body& body) const {
   const Vector3& w_WB_B = state.bodies[body.index].w_WB_B;
   if (!(w_WB_B.squaredNorm() > body.harmless_square)) return false;
   const BodyModel& model = model_.bodies[body.index];
-  if (!body.unit_shares) body.unit_shares = find_unit_shares(model);
+  if (!body.unit_fractions) body.unit_fractions = find_unit_fractions(model);
   const Vector6 products = half_square(w_WB_B);
   const double change =
-      body.unit_shares->dot((products - body.products).cwiseAbs());
+      body.unit_fractions->dot((products - body.products).cwiseAbs());
   if (body.softening + change < 1.0) return false;
   body.products = products;
-  body.softening = find_shares(model, products).maxCoeff();
+  body.softening = find_fractions(model, products).maxCoeff();
   return body.softening >= 1.0;
 }
 

@@ -12,7 +12,7 @@
 
 namespace limber::dynamics {
 
-/// Share of the undeformed body's stiffness that rotation cancels, in linear
+/// Fraction of the undeformed body's stiffness that rotation cancels, in linear
 /// elasticity.
 ///
 /// Equation   largest eigenvalue mu of Lambda^-1/2 B Lambda^-1/2, with
@@ -30,7 +30,8 @@ namespace limber::dynamics {
 /// Monitors deformations: linear elasticity is valid for small ones only. It
 /// looks at every step, so what it finds does not depend on the outputs.
 ///
-/// Equation   displacements and shares of stiffness are computed where a bound
+/// Equation   displacements and fractions of stiffness are computed where a
+/// bound
 ///            on their change since the last time does not exclude a finding:
 ///            |u(eta)| <= |u(eta_0)| + sum_k size_k |eta - eta_0|_k and
 ///            mu(q) <= mu(q_0) + sum_i mu(e_i) |q - q_0|_i of q = w' w / 2
@@ -56,7 +57,7 @@ class LinearLimit {
     double size = 0.0;             // longest edge, 0: unknown [m]
     double harmless_square = 0.0;  // of its spin [rad^2/s^2]
     DisplacementMeasure measure;
-    std::optional<Vector6> unit_shares = {};  // if needed yet [s^2/rad^2]
+    std::optional<Vector6> unit_fractions = {};  // if needed yet [s^2/rad^2]
     bool was_told_large = false;
     bool was_told_soft = false;
     // The last ones that were computed.

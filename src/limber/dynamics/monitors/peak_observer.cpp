@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostSearches = 6;
 // Relative to the time of three samples: convergence of a search.
 constexpr double kClose = 1e-3;
-// A parabola may be low by this share of its addition.
+// A parabola may be low by this fraction of its addition.
 constexpr double kParabolaError = 0.5;
 // Relative to the range of three values: limit of the addition to the largest.
 constexpr double kMostAdded = 0.5;

@@ -198,7 +198,7 @@ Pose NewtonMatrix::find_pose(const SystemTerms& terms, int body) const {
   return {motion.R_WB, motion.p_WF - motion.R_WB * motion.arm_B};
 }
 
-// Its share of A, which is known only once it is eliminated.
+// Its fraction of A, which is known only once it is eliminated.
 void NewtonMatrix::add_compliances(const RetainedUnknowns& retained) {
   for (const int e : ends_of_body_[index(retained.body)]) {
     const End& end = ends_[index(e)];

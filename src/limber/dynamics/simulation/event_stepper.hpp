@@ -117,7 +117,7 @@ class EventStepper {
   void check_missed_touch(std::size_t index, SystemState& state);
   int settle_touch(const ContactStartObserver::Crossing& crossing,
                    SystemState& state, double nominal_h);
-  bool advance_to(double share, SystemState& state);
+  bool advance_to(double fraction, SystemState& state);
   void add_last();
 
   const SystemModel& model_;

@@ -23,7 +23,7 @@ namespace {
 constexpr double kMostPartsOfStep = 1e3;
 // Preferred fraction of the longest stable step [-]. Runge-Kutta then
 // dissipates 4e-6 of the fastest motion's energy a step.
-constexpr double kAccurateShare = 0.1;
+constexpr double kAccurateFraction = 0.1;
 // Amplification per step below which a run does not blow up, approximately [-].
 constexpr double kMostEnergyGrowth = 1.05;
 
@@ -154,7 +154,7 @@ SimulationSettings limit_central(const SystemModel& model,
                                  SimulationStatistics& statistics) {
   const double step = find_longest_step(asked);
   statistics.stable_step = find_stable_step(model, state);
-  const double longest = kStableShare * statistics.stable_step;
+  const double longest = kStableFraction * statistics.stable_step;
   if (step > kMostPartsOfStep * longest) {
     throw InputError(describe(model, state, asked.integrator, step, longest) +
                      kAdvice);
@@ -171,7 +171,7 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
   settings.step = step;
   if (find_growth(model, state, settings) < kMostEnergyGrowth) return asked;
   statistics.stable_step = find_stable_step(model, state, asked.integrator);
-  const double longest = kStableShare * statistics.stable_step;
+  const double longest = kStableFraction * statistics.stable_step;
   if (!(step > longest)) return asked;
   if (step > kMostPartsOfStep * longest) {
     statistics.warnings.push_back(
@@ -179,7 +179,7 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
         "steps are not divided so often, and may blow up; " + kAdvice);
     return asked;
   }
-  const double accurate = kAccurateShare * statistics.stable_step;
+  const double accurate = kAccurateFraction * statistics.stable_step;
   const double taken =
       std::min(longest, std::max(accurate, step / kMostPartsOfStep));
   statistics.warnings.push_back(fmt::format(

@@ -35,11 +35,11 @@ constexpr long kFewestSteps = 32;
 constexpr double kMostWork = 4e6;  // steps and solves, times unknowns
 
 // Errors of an oscillation's steps add up to twice their sum, or a little more.
-constexpr double kBudgetShare = 0.5;  // of the tolerance
+constexpr double kBudgetFraction = 0.5;  // of the tolerance
 
 ErrorBudget make_budget(const SimulationSettings& settings, double start) {
   if (settings.passes != TolerancePasses::verified) {
-    return ErrorBudget::in_all(kBudgetShare * settings.tolerance,
+    return ErrorBudget::in_all(kBudgetFraction * settings.tolerance,
                                settings.end_time - start);
   }
   return ErrorBudget::each(settings.tolerance);
@@ -87,8 +87,8 @@ Losses TimeLoop::losses() const {
 
 void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   archive(state, has_started_, next_, part_, parts_, origin_, h_, at_jump_,
-          depth_, shares_, failure_, clash_, output_, visits_, refreshed_steps_,
-          refreshed_solves_);
+          depth_, fractions_, failure_, clash_, output_, visits_,
+          refreshed_steps_, refreshed_solves_);
   stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   steps_.exchange_memory(archive);
@@ -152,7 +152,7 @@ void TimeLoop::keep_checkpoint(const CheckpointKeeper& keeper) {
 
 // Fraction of the work that is done at a time; of the time, if the number of
 // steps depends on a tolerance.
-double TimeLoop::find_share(double t) const {
+double TimeLoop::find_fraction(double t) const {
   const double end = settings_.end_time;
   if (settings_.tolerance > 0.0) return (t - start_) / (end - start_);
   return count_steps(settings_, start_, t) /
@@ -419,7 +419,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
 
 void TimeLoop::tell_progress(const SystemState& state,
                              const Progress& progress) {
-  if (pulse_.is_due()) pulse_.report(find_share(state.t), progress);
+  if (pulse_.is_due()) pulse_.report(find_fraction(state.t), progress);
 }
 
 // After a part of a step, or an attempt that must be repeated.

@@ -124,7 +124,7 @@ class TimeLoop {
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);
   void halve(const SystemState& state, double h, const std::string& why);
-  void count_share(const SystemState& state);
+  void count_fraction(const SystemState& state);
   void check_budget(const SystemState& state, double h);
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
@@ -137,7 +137,7 @@ class TimeLoop {
   void refresh();
   void hold_checkpoint(SystemState& state, const CheckpointKeeper& keeper);
   void keep_checkpoint(const CheckpointKeeper& keeper);
-  [[nodiscard]] double find_share(double t) const;
+  [[nodiscard]] double find_fraction(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);
   [[nodiscard]] bool is_sound(const SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
@@ -180,7 +180,7 @@ class TimeLoop {
   bool at_jump_ = false;      // a load jumped at the last breakpoint
   bool inputs_jump_ = false;  // where the current step ends
   int depth_ = 0;             // number of current halvings of steps
-  long shares_ = 0;           // number of parts of halved steps so far
+  long fractions_ = 0;        // number of parts of halved steps so far
   std::string failure_;       // cause of the last halving
   std::string clash_;         // message on initial velocities against dampers
   std::size_t output_ = 0;    // next of outputs_

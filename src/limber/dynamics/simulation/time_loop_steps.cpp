@@ -70,8 +70,8 @@ bool TimeLoop::goes_through(const SystemState& state, double h,
 }
 
 // Without a budget, repeated halving could make a run a thousand times longer.
-void TimeLoop::count_share(const SystemState& state) {
-  if (budget_.allows_shares(++shares_, statistics_.steps)) return;
+void TimeLoop::count_fraction(const SystemState& state) {
+  if (budget_.allows_fractions(++fractions_, statistics_.steps)) return;
   fail(state, std::ldexp(h_, -depth_),
        fmt::format(
            "at t = {:.9g} s: steps of {:.3g} s succeed only after repeated "
@@ -130,8 +130,8 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
       cause = record_step({h, cause}, state.t - begin);
     }
     // Parts of impacts have limits of their own.
-    const bool is_share = !is_last && !(stepper_.length() < h);
-    if (has_moved && is_share) count_share(state);
+    const bool is_fraction = !is_last && !(stepper_.length() < h);
+    if (has_moved && is_fraction) count_fraction(state);
     if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
   }
   state.t = end;

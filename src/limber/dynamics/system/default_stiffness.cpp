@@ -11,7 +11,7 @@
 namespace limber::dynamics {
 namespace {
 
-/// Principal flexibilities below this share of the largest are of directions
+/// Principal flexibilities below this fraction of the largest are of directions
 /// that the interface does not define, such as the rotation of a line of nodes
 /// about itself [-].
 constexpr double kUndefined = 1e-12;
@@ -95,11 +95,11 @@ joints::JointParameters find_joint_parameters(const CouplerOptions& options,
   const Hold translation =
       find_hold(options.translational_stiffness, options.translational_damping,
                 flexibility(0), reduce(side_F.mass, side_M.mass),
-                load.force / (kRigidShare * load.size), rigid_frequency);
+                load.force / (kRigidFraction * load.size), rigid_frequency);
   const Hold rotation =
       find_hold(options.rotational_stiffness, options.rotational_damping,
                 flexibility(3), reduce(side_F.inertia, side_M.inertia),
-                load.moment / kRigidShare, rigid_frequency);
+                load.moment / kRigidFraction, rigid_frequency);
   joints::JointParameters parameters;
   parameters.translational_stiffness = translation.stiffness;
   parameters.rotational_stiffness = rotation.stiffness;

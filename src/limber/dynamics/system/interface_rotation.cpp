@@ -15,7 +15,7 @@ namespace {
 
 using flexbody::InterfaceTable;
 
-/// Directions below this share of the largest are not required.
+/// Directions below this fraction of the largest are not required.
 constexpr double kNothing = 1e-12;
 /// Directions this near to each other are the same [rad]: URDF files round
 /// their angles, 1.5708 for pi / 2.

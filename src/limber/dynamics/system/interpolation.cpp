@@ -45,10 +45,10 @@ void interpolate_vectors(const VectorX& a, const VectorX& adot,
 }  // namespace
 
 void interpolate(const SystemModel& model, const SystemState& begin,
-                 const SystemState& end, double share, SystemState& state) {
+                 const SystemState& end, double fraction, SystemState& state) {
   const double h = end.t - begin.t;
-  const Cubic cubic(share, h);
-  state.t = begin.t + share * h;
+  const Cubic cubic(fraction, h);
+  state.t = begin.t + fraction * h;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].has_rigid_motion()) {
       interpolate_body(begin.bodies[b], end.bodies[b], cubic, state.bodies[b]);
@@ -60,7 +60,7 @@ void interpolate(const SystemModel& model, const SystemState& begin,
                       state.eta, state.etadot);
   interpolate_vectors(begin.u_H, begin.udot_H, end.u_H, end.udot_H, cubic,
                       state.u_H, state.udot_H);
-  state.maxwell = begin.maxwell + share * (end.maxwell - begin.maxwell);
+  state.maxwell = begin.maxwell + fraction * (end.maxwell - begin.maxwell);
   state.X_WH = end.X_WH;
   state.memory = begin.memory;
   // An input's line before its last jump is that of the step, too.

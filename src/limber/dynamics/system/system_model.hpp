@@ -58,7 +58,7 @@ struct FullModel {
   BodyIndex body;
   Eigen::Index first = 0;  ///< index of its 3N entries in SystemState::u_H
   std::shared_ptr<const flexbody::FullBody> mesh;
-  /// Damping acts on the deformation's share in the reduced body's modes.
+  /// Damping acts on the deformation's fraction in the reduced body's modes.
   MatrixX damped_modes;  ///< 3N x m, M Phi [kg^1/2]; no columns if undamped
   VectorX damping;       ///< m [1/s]
   /// Whether forces depend on the mean-axis frame: loads that rotate with the

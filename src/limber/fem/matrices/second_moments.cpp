@@ -25,14 +25,14 @@ void check_sum(const MatrixModel& model, const std::string& file) {
   const Eigen::SparseMatrix<double> rest = model.moments[0] + model.moments[1] +
                                            model.moments[2] -
                                            model.mass.entries;
-  const double share =
+  const double fraction =
       find_largest_entry(rest) / find_largest_entry(model.mass.entries);
-  if (share <= kRounding) return;
+  if (fraction <= kRounding) return;
   throw InputError(fmt::format(
       "{}: S_xx + S_yy + S_zz differs from the mass matrix {} by {:.2g} of its "
       "largest entry. Expected second moments of the same mass, with rows in "
       "the same order.",
-      file, model.mass.file, share));
+      file, model.mass.file, fraction));
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_node_pairs(
 
 /// Gives elements that share no face with their piece to the adjacent piece;
 /// unstructured meshes have some at every cut.
-/// @throws InputError if they are more than a small share
+/// @throws InputError if they are more than a small fraction
 void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
   constexpr double kSmall = 0.1;  // of a piece's elements
   constexpr int kMostRounds = 10;

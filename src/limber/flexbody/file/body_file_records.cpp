@@ -124,9 +124,10 @@ void write_field(Hdf5File& out, const std::string& at,
             "1 if the body was reduced with such a field");
   out.write(at + "eta", MatrixX(field.eta), unit,
             "modal coordinates, Phi' M u");
-  out.write(at + "shares",
-            MatrixX(Eigen::Vector2d(field.rigid_share, field.missed_share)),
-            "1", "left out: rigid motion, deformation outside the basis");
+  out.write(
+      at + "shares",
+      MatrixX(Eigen::Vector2d(field.rigid_fraction, field.missed_fraction)),
+      "1", "left out: rigid motion, deformation outside the basis");
   out.write(at + "key", field.key, "digest of the field");
 }
 
@@ -178,9 +179,9 @@ std::optional<ProjectedField> read_field(const BodyFileReader& reader,
                                          const std::string& at,
                                          Eigen::Index m) {
   if (reader.integer(at + "is_given") == 0) return std::nullopt;
-  const MatrixX shares = reader.matrix(at + "shares", 2, 1);
-  return ProjectedField{reader.matrix(at + "eta", m, 1), shares(0, 0),
-                        shares(1, 0), reader.in().read_text(at + "key")};
+  const MatrixX fractions = reader.matrix(at + "shares", 2, 1);
+  return ProjectedField{reader.matrix(at + "eta", m, 1), fractions(0, 0),
+                        fractions(1, 0), reader.in().read_text(at + "key")};
 }
 
 }  // namespace limber::flexbody

@@ -53,7 +53,7 @@ VectorX find_angles(const std::vector<double>& times, double start,
   return angles;
 }
 
-// Shares of the period, which sum to one.
+// Fractions of the period, which sum to one.
 VectorX find_weights(const std::vector<double>& times) {
   const Eigen::Map<const VectorX> t(times.data(), std::ssize(times));
   const Eigen::Index intervals = t.size() - 1;

@@ -31,7 +31,7 @@ struct NodalPiece {
 /// nodes in its patch, each part or slice as a NodalPiece.
 ///
 /// Equation   residual = -3 / (5 E' b): the mesh itself deforms locally, so
-///            Hertz's share is subtracted
+///            Hertz's fraction is subtracted
 struct FullContactSurface {
   ContactSurface surface;
   NodalMeans means;

@@ -8,10 +8,10 @@
 namespace limber::flexbody {
 namespace {
 
-/// Roundoff of a share.
+/// Roundoff of a fraction.
 constexpr double kRoundoffOfRecord = 1e-9;
 
-double percent(double share) { return 100.0 * share; }
+double percent(double fraction) { return 100.0 * fraction; }
 
 /// Cases below the threshold, the worst first.
 std::vector<const SelectedCase*> find_missed(const SelectionRecord& record) {

@@ -30,7 +30,8 @@ struct StressModes {
   /// [m^-3 s^-2], or none.
   MatrixX Sigma_B;
   /// m x m: integral of (averaged - element's stress) C^-1 (the same), whose
-  /// share of lambda is the square of the averaging's error in the energy norm
+  /// fraction of lambda is the square of the averaging's error in the energy
+  /// norm
   /// [@zienkiewicz1987] [rad^2/s^2]. Of beams and shells none, 0 x 0.
   MatrixX averaging;
   /// 2 x materials: Young's modulus [Pa], Poisson's ratio; of anisotropic ones

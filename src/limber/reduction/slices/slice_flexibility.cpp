@@ -80,9 +80,9 @@ Matrix3 find_own_flexibility(const SurfaceSlice& slice,
     const MatrixX own = (station.find_motion(Phi).topRows<3>() -
                          motion.topRows<3>() + skew(r) * motion.bottomRows<3>())
                             .leftCols(lambda.size());
-    const Vector3 share = find_faces(samples, axes).cwiseQuotient(faces);
+    const Vector3 fraction = find_faces(samples, axes).cwiseQuotient(faces);
     const MatrixX pressed =
-        share.cwiseSqrt().asDiagonal() * axes.transpose() * own;
+        fraction.cwiseSqrt().asDiagonal() * axes.transpose() * own;
     flexibility +=
         pressed * lambda.cwiseInverse().asDiagonal() * pressed.transpose();
   }

@@ -8,7 +8,7 @@
 /// Points that stand for a surface's area. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Share of a surface's modal flexibility along its normals that the own
+/// Fraction of a surface's modal flexibility along its normals that the own
 /// deformation of its parts may have [-].
 inline constexpr double kMostDeformation = 1e-4;
 

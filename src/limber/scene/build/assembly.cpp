@@ -24,8 +24,8 @@
 namespace limber::scene {
 namespace {
 
-/// Mass in <inertial> may differ from the mesh's by this share.
-constexpr double kMassShare = 0.01;
+/// Mass in <inertial> may differ from the mesh's by this fraction.
+constexpr double kMassFraction = 0.01;
 
 /// Of bodies that do not deform.
 constexpr flexbody::FrequencyBand kAnyBand{1.0, 2.0};
@@ -65,7 +65,8 @@ void Assembly::add_body(const BodyPlan& plan) {
   for (const BodyPlan& piece : find_bodies(plans_, plan.links.front())) {
     mass += piece.mass;
   }
-  if (link.inertia && std::abs(link.inertia->mass - mass) > kMassShare * mass) {
+  if (link.inertia &&
+      std::abs(link.inertia->mass - mass) > kMassFraction * mass) {
     warnings_.push_back(
         fmt::format("link '{}': the mesh has {:.4g} kg, <inertial> has {:.4g} "
                     "kg; the mesh's is used",

@@ -16,12 +16,12 @@
 namespace limber::scene {
 namespace {
 
-/// A joint farther from its interface than this share of the body's size gets
-/// a warning.
-constexpr double kFarShare = 0.05;
+/// A joint farther from its interface than this fraction of the body's size
+/// gets a warning.
+constexpr double kFarFraction = 0.05;
 
 /// Largest gap between the ends of a loop, relative to its size.
-constexpr double kGapShare = 1e-6;
+constexpr double kGapFraction = 1e-6;
 /// Round-off of the ends, relative to their places.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -96,7 +96,7 @@ void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
   const flexbody::InterfaceTable& table = *site.anchor.table;
   const double distance = (site.X_BF.p - table.p_B).norm();
   if (distance >
-      kFarShare *
+      kFarFraction *
           sites_.plan_of(link, site.anchor.piece).reduced->size.norm()) {
     warnings_.push_back(fmt::format(
         "joint '{}' is {:.3g} m from the middle of interface '{}' of link "
@@ -234,7 +234,7 @@ void CouplerAssembly::check_gap(const LoopEnds& ends,
   }
   const double gap = (to.p - from.p).norm();
   const double rounding = kRounding * (from.p.norm() + to.p.norm());
-  if (gap <= kGapShare * size + rounding) return;
+  if (gap <= kGapFraction * size + rounding) return;
   throw InputError(fmt::format(
       "its ends are {:.3g} m apart {}, at ({:.6g}, {:.6g}, {:.6g}) and "
       "({:.6g}, {:.6g}, {:.6g}) m; they must meet there",

@@ -15,11 +15,11 @@
 namespace limber::scene {
 namespace {
 
-constexpr double kMostShare = 0.03;  // of R_e [-]
+constexpr double kMostFraction = 0.03;  // of R_e [-]
 // Of the smaller shape's size a, where both are flat [-]. A face of 2 a x 2 a
 // pressed in by s a stores about s^2 E* a^3, with this 1e-4 E* a^3; a sphere at
-// the share above 8 / 15 0.03^2.5 E* R^3 = 0.8e-4 E* R^3.
-constexpr double kMostFlatShare = 0.01;
+// the fraction above 8 / 15 0.03^2.5 E* R^3 = 0.8e-4 E* R^3.
+constexpr double kMostFlatFraction = 0.01;
 // Of the above: where shapes are meant to touch exactly [-].
 constexpr double kRounding = 1e-8;
 constexpr std::size_t kMostTold = 10;
@@ -67,13 +67,13 @@ std::string tell(const PlacedPair& placed, double depth,
 double find_most_overlap(const contact::ContactSide& A,
                          const contact::ContactSide& B,
                          const std::optional<double>& radius) {
-  if (radius) return kMostShare * *radius;
+  if (radius) return kMostFraction * *radius;
   const auto is_ball = [](const contact::ContactSide& side) {
     return std::holds_alternative<contact::Sphere>(side.shape.kind);
   };
   return is_ball(A) || is_ball(B)
-             ? kMostShare * contact::find_touch_radius(A, B)
-             : kMostFlatShare * contact::find_size(A.shape, B.shape);
+             ? kMostFraction * contact::find_touch_radius(A, B)
+             : kMostFlatFraction * contact::find_size(A.shape, B.shape);
 }
 
 std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,

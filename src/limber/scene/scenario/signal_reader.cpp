@@ -27,8 +27,8 @@ Base read_ramp(TomlTable& table, const SignalContext& /*context*/) {
                                        {"trapezoid", RampShape::trapezoid},
                                        {"smooth", RampShape::smooth}},
                                       ramp.shape);
-  const Range share{0.0, 0.5, true, false};
-  ramp.rise = table.number("rise", share).value_or(ramp.rise);
+  const Range fraction{0.0, 0.5, true, false};
+  ramp.rise = table.number("rise", fraction).value_or(ramp.rise);
   if (table.has("rise") && ramp.shape != RampShape::trapezoid) {
     table.fail("rise", "applies only to shape 'trapezoid'");
   }

@@ -128,9 +128,9 @@ TEST(ComparisonPlan, TakesATenthOfATolerance) {
   scene.scenario.settings.step = 2.0;  // the duration
   const ComparisonPlan plan = make_plan({}, {}, scene);
   EXPECT_FALSE(plan.reference.step);
-  EXPECT_EQ(plan.reference.tolerance_share, 0.1);
+  EXPECT_EQ(plan.reference.tolerance_fraction, 0.1);
   EXPECT_THAT(describe(plan.reference), HasSubstr("0.1 of the tolerance"));
-  for (const Choice& run : plan.runs) EXPECT_EQ(run.tolerance_share, 1.0);
+  for (const Choice& run : plan.runs) EXPECT_EQ(run.tolerance_fraction, 1.0);
   Axes steps;
   steps.steps = {1e-3};
   EXPECT_EQ(make_plan(steps, {}, scene).reference.step, 5e-4);

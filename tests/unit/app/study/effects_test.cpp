@@ -72,7 +72,7 @@ TEST(Effects, OfASobolDesignAreThoseInClosedFormOfIshigamisFunction) {
   }
 }
 
-// Shares of the variance do not know of a constant; without its mean the
+// Fractions of the variance do not know of a constant; without its mean the
 // response is the same to roundoff, 1e-16 of 1e6.
 TEST(Effects, AreTheSameOfAResponseFarFromZero) {
   const Effects near =
@@ -169,7 +169,7 @@ TEST(Correlations, OfNormalQuantitiesHaveTheirClosedForms) {
       inside += b.low <= rank && rank <= b.high ? 1 : 0;
     }
   }
-  EXPECT_NEAR(inside / 800.0, 0.95, 0.025);  // deviation of a share: 0.8 %
+  EXPECT_NEAR(inside / 800.0, 0.95, 0.025);  // deviation of a fraction: 0.8 %
 }
 
 TEST(Correlations, OfRanksAreOneForAnyMonotonicLaw) {

@@ -147,7 +147,7 @@ TEST(LevelAdvice, AsksForFullWhereTheStretchRunsAhead) {
   EXPECT_NEAR(advise_at(50.0).errors.nonlinear, u, 1e-9 * u);
 }
 
-// A share of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
+// A fraction of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
 TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
   SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};

@@ -50,10 +50,10 @@ TEST_F(DampedBody, HasTheElasticEnergyOfItsMaxwellElementsToo) {
   state_.maxwell.setConstant(4e-3);
   const double elastic = calc_energy(model_, state_).elastic;
   ASSERT_GT(elastic, 1.2 * modes);
-  const double share = 0.5 * kStiffness * kGive * kGive / elastic;
+  const double fraction = 0.5 * kStiffness * kGive * kGive / elastic;
   EXPECT_THAT(find_hold_warnings(model_, state_),
               ElementsAre(HasSubstr(fmt::format(
-                  "{:.3g} % of the elastic energy", 100.0 * share))));
+                  "{:.3g} % of the elastic energy", 100.0 * fraction))));
 }
 
 TEST_F(DampedBody, GetsNoWarningOfAJointBesideMaxwellElementsThatStoreMore) {

@@ -48,7 +48,7 @@ TEST(ImpactSpectrum, SaysHowManyModesReachTheImpact) {
                                              {make_record(duration)});
     ASSERT_EQ(spectra.size(), 1U);  // the ball has no modes
     EXPECT_EQ(spectra[0].body, "bar");
-    EXPECT_NEAR(spectra[0].share(), duration * std::pow(16.0, power), 1e-12);
+    EXPECT_NEAR(spectra[0].fraction(), duration * std::pow(16.0, power), 1e-12);
     EXPECT_FALSE(spectra[0].is_enough());
     EXPECT_NEAR(spectra[0].needed.value_or(0), needed, 1);
     EXPECT_THAT(describe(spectra[0]), HasSubstr("modes would respond"));

@@ -114,8 +114,8 @@ TEST_F(MostEnergy, OfABodyIsThatOfTranslationAndRotation) {
 TEST_F(MostEnergy, OfAModeIsThatOfItsDeformationAndVelocity) {
   state_.eta[1] = std::sqrt(2.0 * 0.505) / 90.0;
   state_.etadot[1] = std::sqrt(2.0 * 0.505);
-  for (const double share : {0.0, 0.5, 1.0}) {
-    move(share, 1.0 - share);
+  for (const double fraction : {0.0, 0.5, 1.0}) {
+    move(fraction, 1.0 - fraction);
     EXPECT_EQ(find(), "mode 2 (14.32 Hz) of body 'cloud'");
   }
 }

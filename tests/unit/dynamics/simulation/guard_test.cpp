@@ -150,8 +150,8 @@ TEST(Guard, LooksAtDeformationsBetweenOutputs) {
         body.size.maxCoeff() /
         DisplacementMeasure(scene.model.bodies[0]).mode_sizes()[1];
     const SimulationSettings settings = make_settings(period, period / 200.0);
-    const auto swing = [&](double share) {
-      scene.state.etadot[1] = share * size * rate;
+    const auto swing = [&](double fraction) {
+      scene.state.etadot[1] = fraction * size * rate;
       SystemState state = scene.state;
       return simulate(scene.model, state, settings, {}).warnings;
     };
@@ -172,8 +172,8 @@ TEST(Guard, FindsTheStepAtWhichASpinBecomesCritical) {
   Scene scene = make_spinning_body(0.0);
   LinearLimit limit(scene.model);
   std::vector<std::string> warnings;
-  for (double share = 0.3; share < 0.9995; share += 1e-3) {
-    scene.state.bodies[0].w_WB_B.x() = share * critical;
+  for (double fraction = 0.3; fraction < 0.9995; fraction += 1e-3) {
+    scene.state.bodies[0].w_WB_B.x() = fraction * critical;
     limit.check(scene.state, warnings);
   }
   EXPECT_TRUE(warnings.empty());

@@ -100,14 +100,15 @@ TEST_P(SpunBox, DeformationIsThatOfADenseSolver) {
   VectorX F(box_.matrices.dof_count());
   for (Eigen::Index i = 0; i < F.size(); ++i)
     F[i] = std::sin(1.7 * static_cast<double>(i));
-  for (const double share : {0.0, 0.3, 0.9, 0.999}) {
-    const double speed = share * dense_critical_speed();
+  for (const double fraction : {0.0, 0.3, 0.9, 0.999}) {
+    const double speed = fraction * dense_critical_speed();
     const MatrixX A = K_ - speed * speed * ME_;
     const VectorX expected = V_ * dense::solve(A, VectorX(V_.transpose() * F));
     const VectorX found = solve_spun(inverse_, axis_, speed, F);
     // What the softening leaves of the lowest stiffness is lost in digits.
-    const double tolerance = kRoundoff / (1.0 - share * share);
-    EXPECT_LT((found - expected).norm(), tolerance * expected.norm()) << share;
+    const double tolerance = kRoundoff / (1.0 - fraction * fraction);
+    EXPECT_LT((found - expected).norm(), tolerance * expected.norm())
+        << fraction;
   }
 }
 

@@ -163,9 +163,9 @@ TEST(ContactAssembly, TakesFlatOverlapsForTouchingByTheSizeOfBoth) {
         "iyy='{0}' izz='{0}' ixy='0' ixz='0' iyz='0'/></inertial><collision>"
         "<geometry><box size='{1} {1} {1}'/></geometry></collision></link>\n",
         2.0 / 3.0 * a * a, 2.0 * a);
-    const auto build = [&](double share) {
+    const auto build = [&](double fraction) {
       return input_error([&] {
-        (void)folder.build(cube, kTime + floor_at((share - 1.0) * a) +
+        (void)folder.build(cube, kTime + floor_at((fraction - 1.0) * a) +
                                      contact("cube", "floor"));
       });
     };

@@ -62,7 +62,7 @@ TEST(DriveReader, ReadsEveryKeyOfAPositionDrive) {
   // Undamped: two halves, half a period apart.
   const auto& shaper = spec.drive.signal.shaper;
   ASSERT_EQ(shaper.size(), 2U);
-  EXPECT_EQ(shaper[0].share, 0.5);
+  EXPECT_EQ(shaper[0].fraction, 0.5);
   EXPECT_EQ(shaper[1].delay, 0.25);
 }
 
