@@ -92,12 +92,12 @@ void scale_defaults(const scene::BuiltScene& built, double factor,
                          scene::CouplerOptions& options) {
     for (const dynamics::Coupler& coupler : built.model.couplers) {
       if (coupler.name != name) continue;
-      const auto hold = joints::find_hold_stiffness(coupler.law);
-      if (!hold) continue;
+      const auto constraint = joints::find_constraint_stiffness(coupler.law);
+      if (!constraint) continue;
       if (!options.translational_stiffness)
-        options.translational_stiffness = factor * hold->translational;
+        options.translational_stiffness = factor * constraint->translational;
       if (!options.rotational_stiffness)
-        options.rotational_stiffness = factor * hold->rotational;
+        options.rotational_stiffness = factor * constraint->rotational;
     }
   };
   for (scene::Joint& joint : robot.joints) scale(joint.name, joint.coupler);

@@ -10,7 +10,7 @@
 #include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/coupler_law_kind.hpp"
 #include "limber/joints/scalar/scalar_law.hpp"
-#include "limber/joints/universal_hold.hpp"
+#include "limber/joints/universal_constraint.hpp"
 
 namespace limber::joints {
 
@@ -21,9 +21,9 @@ namespace limber::joints {
 ///            element, with the coordinates of AxisCoordinate
 class Joint : public WithoutTriggers {
  public:
-  using Hold = std::variant<Bushing, UniversalHold>;
+  using Constraint = std::variant<Bushing, UniversalConstraint>;
   struct Parameters {
-    Hold hold;
+    Constraint constraint;
     std::vector<AxisCoordinate> coordinates;
     std::vector<JointElement> elements;
   };
@@ -31,11 +31,13 @@ class Joint : public WithoutTriggers {
   /// @throws ContractError for more than kMaxCoordinates coordinates or
   /// kMaxSwitches switches, an axis that is not a unit vector, or an element on
   /// a coordinate that does not exist.
-  Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
+  Joint(Constraint constraint, std::vector<AxisCoordinate> coordinates,
         std::vector<JointElement> elements);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
-  [[nodiscard]] const Hold& hold() const { return parameters_.hold; }
+  [[nodiscard]] const Constraint& constraint() const {
+    return parameters_.constraint;
+  }
   [[nodiscard]] const std::vector<AxisCoordinate>& coordinates() const {
     return parameters_.coordinates;
   }
@@ -70,9 +72,10 @@ class Joint : public WithoutTriggers {
                                              const CouplerMemory& memory,
                                              const EvaluationTime& now) const;
 
-  [[nodiscard]] std::optional<HoldStiffness> find_hold_stiffness() const;
-  [[nodiscard]] HoldGive find_give(const HoldStiffness& stiffness,
-                                   const RelativeMotion& motion) const;
+  [[nodiscard]] std::optional<ConstraintStiffness> find_constraint_stiffness()
+      const;
+  [[nodiscard]] ConstraintDeflection find_deflection(
+      const ConstraintStiffness& stiffness, const RelativeMotion& motion) const;
 
   /// One for each coordinate.
   [[nodiscard]] std::vector<AxisCoordinate::Kind> reading_kinds() const;

@@ -46,7 +46,7 @@ void add_static_warnings(const runs::Reductions& reductions, StaticRun& run) {
   const auto levels = runs::find_level_warnings(level_observer.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
   const auto holds =
-      dynamics::find_hold_warnings(run.built.model, run.found.state);
+      dynamics::find_constraint_warnings(run.built.model, run.found.state);
   run.warnings.insert(run.warnings.end(), holds.begin(), holds.end());
   if (is_unstable(run.report)) {
     run.warnings.push_back(fmt::format(

@@ -37,11 +37,15 @@ struct Gap {
 
 Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
   // Every joint has a hold, of any stiffness.
-  const joints::HoldStiffness held = joint.find_hold_stiffness().value();
-  const joints::HoldGive give = joint.find_give(held, motion);
+  const joints::ConstraintStiffness held =
+      joint.find_constraint_stiffness().value();
+  const joints::ConstraintDeflection deflection =
+      joint.find_deflection(held, motion);
   const Matrix6 K = std::visit(
-      [&](const auto& hold) { return hold.evaluate(motion).stiffness; },
-      joint.hold());
+      [&](const auto& constraint) {
+        return constraint.evaluate(motion).stiffness;
+      },
+      joint.constraint());
   // Only the constrained part of a velocity stores energy.
   const auto held_part = [](const Matrix3& k, double stiffness,
                             const Vector3& v) {
@@ -49,7 +53,7 @@ Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
     return std::sqrt(std::max(v.dot(k * v), 0.0) / stiffness);
   };
   return {
-      give.distance, give.turn,
+      deflection.distance, deflection.turn,
       held_part(K.topLeftCorner<3, 3>(), held.translational, motion.v_FM_F),
       held_part(K.bottomRightCorner<3, 3>(), held.rotational, motion.w_FM_F)};
 }

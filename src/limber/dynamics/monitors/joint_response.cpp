@@ -36,7 +36,7 @@ std::optional<double> find_mobility(const SystemModel& model,
 /// Natural frequency of a joint of rigid bodies [Hz].
 std::optional<double> find_hold_frequency(const SystemModel& model,
                                           const Coupler& coupler) {
-  const auto stiffness = joints::find_hold_stiffness(coupler.law);
+  const auto stiffness = joints::find_constraint_stiffness(coupler.law);
   if (!stiffness || !(stiffness->translational > 0.0)) return std::nullopt;
   const auto mobility = find_mobility(model, find_bodies(model, coupler));
   if (!mobility) return std::nullopt;

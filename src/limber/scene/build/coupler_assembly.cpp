@@ -155,7 +155,7 @@ void CouplerAssembly::record_default(const std::string& name,
                                      const CouplerOptions& options,
                                      const AttachmentSite& F,
                                      const AttachmentSite& M,
-                                     const joints::HoldStiffness& held) {
+                                     const joints::ConstraintStiffness& held) {
   if (F.side.flexibility || M.side.flexibility) return;
   if ((!options.translational_stiffness && held.translational > 0.0) ||
       (!options.rotational_stiffness && held.rotational > 0.0)) {
@@ -198,13 +198,13 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
   }
   const joints::CouplerLaw law = joints::make_joint(
       spec.kind, spec.axis, spec.second, held, std::move(elements));
-  record_default(
-      spec.name, spec.coupler, F, M,
-      joints::find_hold_stiffness(law).value_or(joints::HoldStiffness{}));
+  record_default(spec.name, spec.coupler, F, M,
+                 joints::find_constraint_stiffness(law).value_or(
+                     joints::ConstraintStiffness{}));
   const dynamics::CouplerIndex coupler = add_coupler(spec.name, law, F, M);
   if (coordinates.size() == 1) {
     geared_[spec.name] = {
-        coupler, find_hold(coordinates[0], held), coordinates, {F, M}};
+        coupler, find_constraint(coordinates[0], held), coordinates, {F, M}};
   }
 }
 
@@ -354,8 +354,9 @@ void CouplerAssembly::add_gear(const Gear& gear) {
   dynamics::JointSum sum;
   sum.terms = {{joint.coupler, 0, 1.0}, {with.coupler, 0, -gear.ratio}};
   sum.offset = gear.offset;
-  builder_.add_joint_sum(gear.name, sum,
-                         {make_gear_spring(gear, joint.hold, with.hold)});
+  builder_.add_joint_sum(
+      gear.name, sum,
+      {make_gear_spring(gear, joint.constraint, with.constraint)});
 }
 
 }  // namespace limber::scene

@@ -40,7 +40,8 @@ ScalarSpring make_linear(double stiffness, double damping, double rest,
 
 }  // namespace
 
-Hold find_hold(const AxisCoordinate& coordinate, const JointParameters& held) {
+Constraint find_constraint(const AxisCoordinate& coordinate,
+                           const JointParameters& held) {
   if (coordinate.kind == AxisCoordinate::Kind::angle) {
     return {held.rotational_stiffness, held.rotational_damping};
   }
@@ -117,11 +118,11 @@ std::vector<ScalarLaw> make_tendon_laws(const Tendon& tendon, double length) {
   return laws;
 }
 
-ScalarSpring make_gear_spring(const Gear& gear, const Hold& joint,
-                              const Hold& with) {
+ScalarSpring make_gear_spring(const Gear& gear, const Constraint& joint,
+                              const Constraint& with) {
   const double square = gear.ratio * gear.ratio;
-  const Hold other{with.stiffness / square, with.damping / square};
-  const Hold& softer = other.stiffness < joint.stiffness ? other : joint;
+  const Constraint other{with.stiffness / square, with.damping / square};
+  const Constraint& softer = other.stiffness < joint.stiffness ? other : joint;
   return make_linear(gear.stiffness.value_or(softer.stiffness),
                      gear.damping.value_or(softer.damping), 0.0, false);
 }

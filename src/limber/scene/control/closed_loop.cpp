@@ -126,7 +126,7 @@ dynamics::SystemModel without_dry_friction(dynamics::SystemModel model) {
     for (joints::JointElement& element : parameters.elements) {
       element.law = without_dry(element.law);
     }
-    coupler.law = joints::Joint(parameters.hold, parameters.coordinates,
+    coupler.law = joints::Joint(parameters.constraint, parameters.coordinates,
                                 parameters.elements);
   }
   for (dynamics::Transmission& line : model.transmissions) {
