@@ -128,7 +128,7 @@ std::vector<PieceDifference> compare_pieces(
     const Matrix6 found = several.find_flexibility(table.name, held);
     const std::string place =
         fmt::format("at '{}'{}", table.name,
-                    hold.empty() ? "" : fmt::format(" with '{}' held", hold));
+                    held.empty() ? "" : fmt::format(" with '{}' held", held));
     append(
         compare_directions(exact.topLeftCorner<3, 3>(),
                            found.topLeftCorner<3, 3>(), "along", place, "m/N"),
