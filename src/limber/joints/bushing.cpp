@@ -224,7 +224,7 @@ ConstraintDeflection find_deflection(const Bushing& constraint,
     // theta^2 / 2 of a rotation by small angles.
     const Matrix3 D = find_chordal(p.rotational_stiffness);
     const double energy = (D * (Matrix3::Identity() - motion.R_FM)).trace();
-    deflection.turn =
+    deflection.rotation =
         std::sqrt(2.0 * std::max(energy, 0.0) / stiffness.rotational);
   }
   return deflection;

@@ -92,7 +92,7 @@ ConstraintDeflection find_deflection(const UniversalConstraint& constraint,
   ConstraintDeflection deflection;
   if (stiffness.translational > 0.0) deflection.distance = motion.p_FM_F.norm();
   if (stiffness.rotational > 0.0) {
-    deflection.turn = std::abs(p.axis_F.dot(motion.R_FM * p.axis_M));
+    deflection.rotation = std::abs(p.axis_F.dot(motion.R_FM * p.axis_M));
   }
   return deflection;
 }

@@ -189,10 +189,11 @@ void check_data_name(const std::filesystem::path& file,
 
 }  // namespace
 
-Matrix6X turn_to_world(const Matrix6X& stress_B, const Matrix3& R_WB) {
+Matrix6X rotate_to_world(const Matrix6X& stress_B, const Matrix3& R_WB) {
   Matrix6X stress_W(6, stress_B.cols());
   for (Eigen::Index n = 0; n < stress_B.cols(); ++n) {
-    stress_W.col(n) = flexbody::turn_stress(stress_B.col(n), R_WB.transpose());
+    stress_W.col(n) =
+        flexbody::rotate_stress(stress_B.col(n), R_WB.transpose());
   }
   return stress_W;
 }

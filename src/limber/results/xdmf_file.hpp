@@ -21,8 +21,8 @@ struct SurfaceFrame {
 };
 
 /// Stress at nodes, 6 x n as above, from the axes of a body to the world's.
-[[nodiscard]] Matrix6X turn_to_world(const Matrix6X& stress_B,
-                                     const Matrix3& R_WB);
+[[nodiscard]] Matrix6X rotate_to_world(const Matrix6X& stress_B,
+                                       const Matrix3& R_WB);
 
 /// A surface and its times.
 struct MovingSurface {

@@ -140,8 +140,8 @@ Json to_json(const runs::BodyLevel& level) {
       {"angle", peaks.angle},
       {"deformation", describe_peak(peaks.deformation)},
       {"displacement", describe_peak(peaks.total)},
-      {"interface_rotation", describe_peak(peaks.turn)},
-      {"relative_interface_rotation", describe_peak(peaks.relative_turn)},
+      {"interface_rotation", describe_peak(peaks.rotation)},
+      {"relative_interface_rotation", describe_peak(peaks.relative_rotation)},
       {"static_displacement_of_loads", describe_peak(peaks.loads)},
       {"static_displacement_of_inertia", describe_peak(peaks.inertial)}};
   if (level.bound) json["boundary"] = describe_boundaries(level);
@@ -202,7 +202,7 @@ std::string to_text(const runs::BodyLevel& level) {
       peaks.deformation.value, peaks.deformation.time, advice.errors.rigid,
       advice.errors.uncoupled, advice.errors.one_way, advice.errors.coupled,
       advice.errors.nonlinear, peaks.tension.value, peaks.compression.value,
-      peaks.turn.value);
+      peaks.rotation.value);
   text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
                       advice.reason);
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {

@@ -21,7 +21,8 @@ struct RollingLoad {
 
 /// Of B against A, about the same axes.
 struct RollingMotion {
-  Eigen::Vector2d turn = Eigen::Vector2d::Zero();  ///< since the last commit
+  Eigen::Vector2d rotation =
+      Eigen::Vector2d::Zero();                     ///< since the last commit
   Eigen::Vector2d rate = Eigen::Vector2d::Zero();  ///< [rad/s]
 };
 
@@ -31,10 +32,10 @@ struct RollingResponse {
   double energy = 0.0;                               ///< of the spring [J]
   double slip_work = 0.0;     ///< lost by rolling on and release, >= 0 [J]
   double damper_power = 0.0;  ///< >= 0 [W]
-  Eigen::Matrix2d by_turn = Eigen::Matrix2d::Zero();   ///< [N m]
-  Eigen::Matrix2d by_rate = Eigen::Matrix2d::Zero();   ///< [N m s]
-  Eigen::Vector2d by_force = Eigen::Vector2d::Zero();  ///< [m]
-  RollingSpring next;                                  ///< what to commit
+  Eigen::Matrix2d by_rotation = Eigen::Matrix2d::Zero();  ///< [N m]
+  Eigen::Matrix2d by_rate = Eigen::Matrix2d::Zero();      ///< [N m s]
+  Eigen::Vector2d by_force = Eigen::Vector2d::Zero();     ///< [m]
+  RollingSpring next;                                     ///< what to commit
 };
 
 /// A moment against rolling, of which the normal force times an arm is the

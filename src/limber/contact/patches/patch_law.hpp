@@ -15,7 +15,7 @@ namespace limber::contact {
 /// What friction has been, and the motion since then.
 struct PatchSlip {
   FrictionMemory last;
-  BodyTurns turns;
+  BodyRotations rotations;
   Vector3 way_W = Vector3::Zero();  ///< of B against A since [m]
 };
 

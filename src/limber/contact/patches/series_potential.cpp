@@ -11,7 +11,7 @@
 namespace limber::contact {
 namespace {
 
-Matrix3 turn(const Matrix3& R_WB, const Matrix3& in_B) {
+Matrix3 rotate(const Matrix3& R_WB, const Matrix3& in_B) {
   return R_WB * in_B * R_WB.transpose();
 }
 
@@ -57,8 +57,8 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
   constexpr int kMost = 100;
   constexpr double kTolerance = 1e-6;  // of f, before its last change
   constexpr double kRise = 1e-3;
-  const Matrix3 of_A = turn(bodies.A.R_WB, R_A_);
-  const Matrix3 R = of_A + turn(bodies.B.R_WB, R_B_);
+  const Matrix3 of_A = rotate(bodies.A.R_WB, R_A_);
+  const Matrix3 R = of_A + rotate(bodies.B.R_WB, R_B_);
   // What the places' own digits can tell apart [m].
   const double floor = 4.0 * std::numeric_limits<double>::epsilon() *
                        (bodies.B.p_WB - bodies.A.p_WB).norm();

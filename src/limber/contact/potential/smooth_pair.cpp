@@ -137,11 +137,11 @@ class SmoothPair::Touch {
   };
   [[nodiscard]] Expansion expand() const {
     const Motion at = follow();
-    const JetVector y1 = turn(at.e1, -1.0);
-    const JetVector y2 = turn(at.e2, -1.0);
+    const JetVector y1 = apply_rotation(at.e1, -1.0);
+    const JetVector y2 = apply_rotation(at.e2, -1.0);
     const Matrix3 R = X_B_.R.transpose();
     const Plane2 radii =
-        find_radii(squares_B_, R * turn(at.n, -1.0), R * y1, R * y2);
+        find_radii(squares_B_, R * apply_rotation(at.n, -1.0), R * y1, R * y2);
     const Plane2 own = radii.inverse();
     HertzForm form;
     if (A_.is_plane) {
@@ -270,9 +270,9 @@ class SmoothPair::Touch {
     JetVector on_B;
     JetVector g;
     const auto evaluate = [&] {
-      const JetVector y = turn(m, -1.0);
+      const JetVector y = apply_rotation(m, -1.0);
       const JetVector Cy = C_B_ * y;
-      on_B = turn(invert(sqrt(dot(y, Cy))) * Cy, 1.0);
+      on_B = apply_rotation(invert(sqrt(dot(y, Cy))) * Cy, 1.0);
       g = on_B - moved + make_jets(p_A);
       if (A_.is_plane) return;
       const JetVector Cm = C_A_ * m;

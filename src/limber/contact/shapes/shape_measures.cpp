@@ -115,8 +115,9 @@ joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
 
 double find_own_speed(const Shape& shape, const VectorX& mode_reach,
                       const joints::PairBody& body) {
-  const double turn = body.w_WB_B.norm();
-  double speed = turn > 0.0 ? turn * find_extent(shape, body) : 0.0;
+  const double angular_speed = body.w_WB_B.norm();
+  double speed =
+      angular_speed > 0.0 ? angular_speed * find_extent(shape, body) : 0.0;
   for (Eigen::Index k = 0; k < mode_reach.size(); ++k) {
     speed += mode_reach[k] * std::abs(body.etadot[k]);
   }

@@ -180,12 +180,12 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
                     metres(peaks.deformation.value), peaks.deformation.time,
                     metres(limits.linear_limit)));
   }
-  if (peaks.relative_turn.value > kLargestTurn ||
-      peaks.turn.value > kLargestTurn) {
-    add(
-        fmt::format("its interfaces rotate by {:.2g} rad, relative to one "
-                    "another by {:.2g} rad, beyond {:g} rad",
-                    peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
+  if (peaks.relative_rotation.value > kLargestRotation ||
+      peaks.rotation.value > kLargestRotation) {
+    add(fmt::format(
+        "its interfaces rotate by {:.2g} rad, relative to one "
+        "another by {:.2g} rad, beyond {:g} rad",
+        peaks.rotation.value, peaks.relative_rotation.value, kLargestRotation));
   }
   const bool is_stretched =
       !is_negligible(advice.errors.nonlinear, peaks, limits);
@@ -311,12 +311,12 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
     advice.level = Fidelity::one_way;
   }
   advice.is_beyond_linear = peaks.deformation.value > limits.linear_limit ||
-                            peaks.relative_turn.value > kLargestTurn;
+                            peaks.relative_rotation.value > kLargestRotation;
   if (advice.is_beyond_linear ||
       (advice.level > Fidelity::rigid &&
        !is_negligible(advice.errors.coupled, peaks, limits))) {
     const bool is_too_far =
-        peaks.turn.value > kLargestTurn ||
+        peaks.rotation.value > kLargestRotation ||
         peaks.compression.value > kLargestLoad ||
         !is_negligible(advice.errors.nonlinear, peaks, limits);
     advice.level = is_too_far ? Fidelity::full : Fidelity::nonlinear;

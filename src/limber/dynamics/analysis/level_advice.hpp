@@ -64,7 +64,7 @@ inline constexpr double kLargestFraction = 0.1;
 /// Rotation of interfaces relative to one another beyond which linear
 /// kinematics, and relative to the mean axes beyond which those of second order
 /// are off by 2 % [rad].
-inline constexpr double kLargestTurn = 0.4;
+inline constexpr double kLargestRotation = 0.4;
 /// Fraction of the buckling load beyond which `nonlinear` is not reliable
 /// [-].
 inline constexpr double kLargestLoad = 0.8;

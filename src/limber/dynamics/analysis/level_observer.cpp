@@ -271,9 +271,9 @@ void LevelObserver::include_deformation(const SystemState& state,
   include_largest(observed.peaks.oscillation, observed.swings);
   observed.total.include(eta, state.t);
   observed.deformation.include(eta, state.t);
-  const InterfaceTurn turn = find_turn(model_, observed.body, eta);
-  include_largest(observed.peaks.turn, turn.own, state.t);
-  include_largest(observed.peaks.relative_turn, turn.relative, state.t);
+  const InterfaceRotation rotation = find_rotation(model_, observed.body, eta);
+  include_largest(observed.peaks.rotation, rotation.own, state.t);
+  include_largest(observed.peaks.relative_rotation, rotation.relative, state.t);
   observed.peaks.modes = observed.peaks.modes.cwiseMax(eta.cwiseAbs());
   if (!body.clamped) include_slip(body, eta, state, observed);
 }
@@ -316,8 +316,8 @@ std::vector<BodyPeaks> LevelObserver::find_peaks() const {
     peaks.deformation = observed.deformation.peak();
     peaks.deformation.value *= factor;
     peaks.modes *= factor;
-    peaks.turn.value *= factor;
-    peaks.relative_turn.value *= factor;
+    peaks.rotation.value *= factor;
+    peaks.relative_rotation.value *= factor;
     peaks.is_held = observed.axial.is_held();
     peaks.frequency = observed.axial.frequency();
     peaks.stretch = peaks.oscillation.cwiseProduct(observed.axial.stretch());
@@ -350,7 +350,7 @@ void LevelObserver::exchange_memory(Archive& archive, Observed& observed) {
           peaks.modes, peaks.axial_time, peaks.strain_time,
           observed.last_fraction, observed.last_strain);
   for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.strain,
-                     &peaks.turn, &peaks.relative_turn}) {
+                     &peaks.rotation, &peaks.relative_rotation}) {
     archive(peak->value, peak->time);
   }
   std::size_t points = observed.track.size();

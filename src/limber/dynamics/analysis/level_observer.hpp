@@ -62,8 +62,8 @@ struct BodyPeaks {
   VectorX stretch;
   /// Largest rotations of interfaces, relative to the body's mean axes and to
   /// one another [rad].
-  Peak turn;
-  Peak relative_turn;
+  Peak rotation;
+  Peak relative_rotation;
 };
 
 /// Observes a motion and estimates, for each flexible body, the response of its

@@ -30,7 +30,7 @@ constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// rate.
 struct Gap {
   double distance;  ///< [m]
-  double turn;      ///< [rad]
+  double rotation;  ///< [rad]
   double speed;     ///< [m/s]
   double spin;      ///< [rad/s]
 };
@@ -53,7 +53,7 @@ Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
     return std::sqrt(std::max(v.dot(k * v), 0.0) / stiffness);
   };
   return {
-      deflection.distance, deflection.turn,
+      deflection.distance, deflection.rotation,
       held_part(K.topLeftCorner<3, 3>(), held.translational, motion.v_FM_F),
       held_part(K.bottomRightCorner<3, 3>(), held.rotational, motion.w_FM_F)};
 }
@@ -289,12 +289,12 @@ class Placing {
           find_gap(std::get<joints::Joint>(coupler.law),
                    find_relative_motion(model_, state_, CouplerIndex(c)));
       const Scale scale = find_scale(c);
-      if (!(gap.distance <= kClosed * scale.size && gap.turn <= kClosed)) {
+      if (!(gap.distance <= kClosed * scale.size && gap.rotation <= kClosed)) {
         add(coupler.name,
             fmt::format("it closes a loop, and its frames are {:.3g} m and "
                         "{:.3g} rad from where they must be; give the "
                         "preceding joints coordinates that close it",
-                        gap.distance, gap.turn));
+                        gap.distance, gap.rotation));
       } else if (!(gap.speed <= kClosed * scale.speed + scale.rounding &&
                    gap.spin <= kClosed * scale.spin)) {
         add(coupler.name,

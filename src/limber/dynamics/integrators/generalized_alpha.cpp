@@ -220,9 +220,9 @@ void GeneralizedAlpha::apply_increments(double h, double taken) {
   add_to_applied(matrix_.wrench_increments(), terms_, taken);
   rotate_corrections(model_, next_, x_);
   for (const BodyModel& body : model_.bodies) {
-    const Vector3 turn = rotation_rows(body, motion_);
+    const Vector3 rotation = rotation_rows(body, motion_);
     const Vector3 x = rotation_rows(body, x_);
-    rotation_rows(body, x_) = right_jacobian_inverse(turn) * x;
+    rotation_rows(body, x_) = right_jacobian_inverse(rotation) * x;
   }
   a_next_ += 1.0 / (p_.beta * h * h) * x_;
 }
@@ -249,12 +249,12 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   nodal_rows(model_, a_next_) =
       (nodal_rows(model_, vdot_) - p_.am * nodal_rows(model_, a_)) /
       (1.0 - p_.am);
-  const bool turns =
+  const bool rotates =
       predict_rotations(model_, from, vdot_, a_, {h, p_.lag, p_.beta}, a_next_);
   get_velocities(model_, from, v_);
   copy_step_constants(from, next_);
   advance(from, h, end);
-  return turns;
+  return rotates;
 }
 
 // Wrenches change as over the last step, as the predicted accelerations do:
@@ -315,12 +315,12 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
                                 StepResult& result) {
   bool exactly = corrections != Corrections::by_factors;
   const bool has_trend = trend_step_ > 0.0 && model_.nodal_count == 0;
-  const bool turns = predict(from, h, end);
+  const bool rotates = predict(from, h, end);
   progress_.start(next_, motion_);
   course_.clear();
   bool knows_noise = false;
   // Factors of an unreduced body are in its axes, and cheap to rotate.
-  bool needs_factors = !keeps || turns;
+  bool needs_factors = !keeps || rotates;
   int slow_corrections = 0;  // with fresh factors
   int growing = 0;           // corrections in a row
   for (int iteration = 1;; ++iteration) {

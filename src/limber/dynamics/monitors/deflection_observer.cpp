@@ -75,14 +75,14 @@ void DeflectionObserver::include(const SystemState& state,
       constraint.deflection = deflection.distance;
       constraint.deflection_time = state.t;
     }
-    if (deflection.turn > constraint.turn) {
-      constraint.turn = deflection.turn;
-      constraint.turn_time = state.t;
+    if (deflection.rotation > constraint.rotation) {
+      constraint.rotation = deflection.rotation;
+      constraint.rotation_time = state.t;
     }
     const double energy = 0.5 * constraint.stiffness.translational *
                               deflection.distance * deflection.distance +
                           0.5 * constraint.stiffness.rotational *
-                              deflection.turn * deflection.turn;
+                              deflection.rotation * deflection.rotation;
     if (energy > constraint.energy) {
       constraint.energy = energy;
       constraint.elastic = 0.0;
@@ -98,7 +98,7 @@ void DeflectionObserver::include(const SystemState& state,
 std::string DeflectionObserver::describe(const Constraint& constraint) const {
   const std::string& joint = model_.couplers[constraint.coupler].name;
   const std::string& body = model_.bodies[constraint.body].name;
-  if (constraint.deflection / constraint.size >= constraint.turn) {
+  if (constraint.deflection / constraint.size >= constraint.rotation) {
     const double fraction = constraint.deflection / constraint.size;
     return fmt::format(
         "joint '{}' deflects by {:.3g} m at t = {:.6g} s in constrained "
@@ -115,9 +115,9 @@ std::string DeflectionObserver::describe(const Constraint& constraint) const {
       "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a rotational "
       "stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would limit this "
       "to 0.1 % of the body's size",
-      joint, constraint.turn, constraint.turn_time, body, constraint.size,
-      constraint.turn * constraint.size,
-      constraint.stiffness.rotational * constraint.turn / kLargest,
+      joint, constraint.rotation, constraint.rotation_time, body,
+      constraint.size, constraint.rotation * constraint.size,
+      constraint.stiffness.rotational * constraint.rotation / kLargest,
       constraint.stiffness.rotational);
 }
 
@@ -189,9 +189,9 @@ std::optional<std::string> DeflectionObserver::find_overpowered() const {
 
 void DeflectionObserver::exchange_memory(Archive& archive) {
   for (Constraint& constraint : constraints_) {
-    archive(constraint.deflection, constraint.turn, constraint.deflection_time,
-            constraint.turn_time, constraint.energy, constraint.elastic,
-            constraint.energy_time);
+    archive(constraint.deflection, constraint.rotation,
+            constraint.deflection_time, constraint.rotation_time,
+            constraint.energy, constraint.elastic, constraint.energy_time);
   }
 }
 

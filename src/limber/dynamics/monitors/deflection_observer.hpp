@@ -64,15 +64,15 @@ class DeflectionObserver {
     double size = 0.0;      // [m]
     joints::ConstraintStiffness stiffness;
     double deflection = 0.0;       // d at its largest [m]
-    double turn = 0.0;             // theta at its largest [rad]
+    double rotation = 0.0;         // theta at its largest [rad]
     double deflection_time = 0.0;  // [s]
-    double turn_time = 0.0;        // [s]
+    double rotation_time = 0.0;    // [s]
     double energy = 0.0;           // of the joint at its largest [J]
     double elastic = 0.0;          // of the connected bodies then [J]
     double energy_time = 0.0;      // [s]
     // The larger of both, relative to the body's size or in [rad].
     [[nodiscard]] double largest() const {
-      return std::max(deflection / size, turn);
+      return std::max(deflection / size, rotation);
     }
     // Of the elastic energy; none without any.
     [[nodiscard]] double fraction() const {

@@ -20,7 +20,7 @@ constexpr double kLarge = 0.1;  // of the body's size: gives a warning
 constexpr double kAbsurdDeformation = 1.0;  // of it: gives an error
 constexpr double kHarmless = 0.5;           // of the lowest frequency
 // Above this the error of second order in the modes exceeds a percent [rad].
-constexpr double kLargeTurn = 0.4;
+constexpr double kLargeRotation = 0.4;
 
 // The mode that moves points most.
 Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
@@ -99,9 +99,9 @@ const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
 }
 
 // Largest rotation of an interface relative to the mean-axis frame [rad].
-double find_turn(const SystemModel& model, const SystemState& state,
-                 std::size_t body) {
-  double turn = 0.0;
+double find_rotation(const SystemModel& model, const SystemState& state,
+                     std::size_t body) {
+  double rotation = 0.0;
   const double* eta = state.eta.data() + model.bodies[body].offset;
   for (const Attachment& attachment : model.attachments) {
     if (!attachment.second || attachment.body != static_cast<int>(body)) {
@@ -112,9 +112,9 @@ double find_turn(const SystemModel& model, const SystemState& state,
     flexbody::add_slopes(*attachment.second, eta, Phi_B, Psi_B);
     const Vector3 psi =
         0.5 * (combine(attachment.Psi_B, eta) + combine(Psi_B, eta));
-    turn = std::max(turn, psi.norm());
+    rotation = std::max(rotation, psi.norm());
   }
-  return turn;
+  return rotation;
 }
 
 }  // namespace
@@ -136,17 +136,17 @@ std::optional<std::string> describe_softening(const BodyModel& body,
       body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
 }
 
-std::optional<std::string> describe_large_turn(const SystemModel& model,
-                                               const SystemState& state,
-                                               std::size_t body) {
+std::optional<std::string> describe_large_rotation(const SystemModel& model,
+                                                   const SystemState& state,
+                                                   std::size_t body) {
   if (!is_quadratic(model.bodies[body])) return std::nullopt;
-  const double turn = find_turn(model, state, body);
-  if (!(turn > kLargeTurn)) return std::nullopt;
+  const double rotation = find_rotation(model, state, body);
+  if (!(rotation > kLargeRotation)) return std::nullopt;
   return fmt::format(
       "body '{}' has bent until an interface rotated by {:.3g} rad; level "
       "nonlinear is valid up to {:g} rad; smaller loads and speeds, pieces or "
       "level full may help",
-      model.bodies[body].name, turn, kLargeTurn);
+      model.bodies[body].name, rotation, kLargeRotation);
 }
 
 LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
@@ -180,8 +180,10 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
   const BodyModel& model = model_.bodies[body.index];
   const double deformation = body.displacement;
   const bool is_nonlinear = is_quadratic(model);
-  const double turn = is_nonlinear ? find_turn(model_, state, body.index) : 0.0;
-  if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
+  const double rotation =
+      is_nonlinear ? find_rotation(model_, state, body.index) : 0.0;
+  if (is_nonlinear && rotation <= kLargeRotation && deformation <= body.size)
+    return;
   const Eigen::Index mode = find_largest_mode(body.measure, body.eta);
   const std::string what = fmt::format(
       "body '{}' at t = {:.9g} s: deformed by {:.3g} m, {:.3g} % of its size "
@@ -204,7 +206,7 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
     warnings.push_back(fmt::format(
         "{}, and rotated by {:.3g} rad at an interface: beyond {:g} rad level "
         "nonlinear is not reliable; use level full for large deformations",
-        what, turn, kLargeTurn));
+        what, rotation, kLargeRotation));
     return;
   }
   warnings.push_back(what + ": beyond 10 % " + name_limit(model) +

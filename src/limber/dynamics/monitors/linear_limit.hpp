@@ -84,7 +84,7 @@ class LinearLimit {
 
 /// Warning about a body at level nonlinear, an interface of which has turned by
 /// more than 0.4 rad; nothing if none has.
-[[nodiscard]] std::optional<std::string> describe_large_turn(
+[[nodiscard]] std::optional<std::string> describe_large_rotation(
     const SystemModel& model, const SystemState& state, std::size_t body);
 
 }  // namespace limber::dynamics

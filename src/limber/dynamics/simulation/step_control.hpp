@@ -51,9 +51,9 @@ class StepControl {
 
  private:
   ErrorBudget budget_;
-  double longest_;    // [s]
-  double most_turn_;  // [rad]
-  double h_;          // [s]
+  double longest_;        // [s]
+  double most_rotation_;  // [rad]
+  double h_;              // [s]
   bool was_rejected_ = false;
 };
 

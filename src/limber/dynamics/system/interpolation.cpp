@@ -28,11 +28,12 @@ void interpolate_body(const BodyState& a, const BodyState& b, const Cubic& c,
       c.value_rate * moved + c.begin_rate * a.v_WB_W + c.end_rate * b.v_WB_W;
   const Vector3 turned = log_rotation(a.quat_WB.conjugate() * b.quat_WB);
   const Vector3 end_rate = right_jacobian_inverse(turned) * b.w_WB_B;
-  const Vector3 turn = c.value * turned + c.begin * a.w_WB_B + c.end * end_rate;
+  const Vector3 rotation =
+      c.value * turned + c.begin * a.w_WB_B + c.end * end_rate;
   const Vector3 rate =
       c.value_rate * turned + c.begin_rate * a.w_WB_B + c.end_rate * end_rate;
-  out.quat_WB = (a.quat_WB * exp_quaternion(turn)).normalized();
-  out.w_WB_B = right_jacobian(turn) * rate;
+  out.quat_WB = (a.quat_WB * exp_quaternion(rotation)).normalized();
+  out.w_WB_B = right_jacobian(rotation) * rate;
 }
 
 void interpolate_vectors(const VectorX& a, const VectorX& adot,

@@ -14,8 +14,8 @@ void displace(const SystemModel& model, const VectorX& increments,
     if (!body.has_rigid_motion()) continue;
     BodyState& rigid = state.bodies[b];
     rigid.p_WB += fraction * translation_rows(body, increments);
-    const Vector3 turn = fraction * rotation_rows(body, increments);
-    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(turn)).normalized();
+    const Vector3 rotation = fraction * rotation_rows(body, increments);
+    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(rotation)).normalized();
   }
   state.u_H += fraction * nodal_rows(model, increments);
 }

@@ -28,10 +28,11 @@ MatrixX calc_face_area(const ReferenceElement& element, std::size_t face,
 
 void widen(const Matrix3& H, LargestGradient& largest) {
   const Matrix3 strain = 0.5 * (H + H.transpose());
-  const Vector3 turn(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0), H(1, 0) - H(0, 1));
+  const Vector3 rotation(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0),
+                         H(1, 0) - H(0, 1));
   largest.strain = std::max(
       largest.strain, dense::find_eigenvalues(strain).cwiseAbs().maxCoeff());
-  largest.rotation = std::max(largest.rotation, 0.5 * turn.norm());
+  largest.rotation = std::max(largest.rotation, 0.5 * rotation.norm());
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ struct StressModes {
 [[nodiscard]] double calc_max_principal(const Vector6& stress);
 
 /// The components in axes of a frame L. @param R_BL axes of L in B
-[[nodiscard]] Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL);
+[[nodiscard]] Vector6 rotate_stress(const Vector6& stress_B,
+                                    const Matrix3& R_BL);
 
 /// Error estimate of a deformation's stress by averaging over elements, in the
 /// energy norm [-]. Zero without deformation.

@@ -41,7 +41,7 @@ struct ConstraintStiffness {
 /// Deflection in the constrained directions.
 struct ConstraintDeflection {
   double distance = 0.0;  ///< [m]
-  double turn = 0.0;      ///< [rad]
+  double rotation = 0.0;  ///< [rad]
 };
 
 }  // namespace limber::joints

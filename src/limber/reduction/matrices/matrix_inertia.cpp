@@ -170,8 +170,9 @@ void integrate_moments(const MatrixPart& part, const MatrixX& Phi,
     // e_z x x = (-y, x, 0), and so on: row of x_a in a rotation's moment.
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3;
-      const VectorX turn = part.X.col(3 + (a + 2) % 3);
-      integrals.S1[k].row(a) = calc_moment(part.system, turn, mode(k)).row(b);
+      const VectorX rotation = part.X.col(3 + (a + 2) % 3);
+      integrals.S1[k].row(a) =
+          calc_moment(part.system, rotation, mode(k)).row(b);
     }
     for (std::size_t l = 0; l < m; ++l)
       integrals.S2[k * m + l] = calc_moment(part.system, mode(k), mode(l));

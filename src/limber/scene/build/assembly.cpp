@@ -354,9 +354,9 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   if (sites_.plan_of(link).is_world) {
     throw InputError("it is on the world, which is fixed");
   }
-  const bool turns = spec.quantity == Quantity::rotation ||
-                     spec.quantity == Quantity::angular_velocity;
-  PointProbe probe = make_followed_point(spec.where, turns);
+  const bool rotates = spec.quantity == Quantity::rotation ||
+                       spec.quantity == Quantity::angular_velocity;
+  PointProbe probe = make_followed_point(spec.where, rotates);
   probe.quantity = spec.quantity;
   if (!spec.relative_to) return probe;
   const PointProbe base = with_context(
@@ -366,7 +366,8 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   return probe;
 }
 
-PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
+PointProbe Assembly::make_followed_point(const Place& where,
+                                         bool rotates) const {
   const int link = find_link(scene_.robot, where.link);
   const Pose X_BL = sites_.X_BL(link);
   PointProbe probe;
@@ -377,7 +378,7 @@ PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
   const Anchor anchor = find_anchor(sites_.pieces_of(link), where);
   const BodyPlan& plan = sites_.plan_of(link, anchor.piece);
   probe.body = sites_.body_of(link, anchor.piece);
-  if (turns) check_rotation(*anchor.table, Matrix3::Identity());
+  if (rotates) check_rotation(*anchor.table, Matrix3::Identity());
   probe.p_B = anchor.table->p_B;
   probe.Phi_B = anchor.table->Phi_B;
   probe.Psi_B = anchor.table->Psi_B;

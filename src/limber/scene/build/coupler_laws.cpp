@@ -56,19 +56,17 @@ std::vector<joints::JointElement> make_elements(
   for (const JointAction& action : actions) {
     const AxisCoordinate& coordinate =
         coordinates.at(static_cast<std::size_t>(action.coordinate));
-    const bool turns = coordinate.kind == AxisCoordinate::Kind::angle;
+    const bool rotates = coordinate.kind == AxisCoordinate::Kind::angle;
     const ScalarLaw law = std::visit(
-        Overloaded{
-            [&](const StopOptions& stop) -> ScalarLaw {
-              return make_stop(
-                  stop, turns ? stiffness.rotational : stiffness.translational);
-            },
-            [](const joints::Friction::Parameters& friction) -> ScalarLaw {
-              return joints::Friction(friction);
-            },
-            [](const ScalarSpring::Parameters& spring) -> ScalarLaw {
-              return ScalarSpring(spring);
-            }},
+        Overloaded{[&](const StopOptions& stop) -> ScalarLaw {
+                     return make_stop(stop, rotates ? stiffness.rotational
+                                                    : stiffness.translational);
+                   },
+                   [](const joints::Friction::Parameters& friction)
+                       -> ScalarLaw { return joints::Friction(friction); },
+                   [](const ScalarSpring::Parameters& spring) -> ScalarLaw {
+                     return ScalarSpring(spring);
+                   }},
         action.law);
     elements.push_back({action.coordinate, law});
   }

@@ -183,9 +183,9 @@ class Checker {
       problems_.add(
           0, who + ": link '" + link->name + "' is rigid; it does not deform");
     }
-    const bool turns = probe.quantity == Quantity::rotation ||
-                       probe.quantity == Quantity::angular_velocity;
-    if (turns) require_rotation(who, probe.where);
+    const bool rotates = probe.quantity == Quantity::rotation ||
+                         probe.quantity == Quantity::angular_velocity;
+    if (rotates) require_rotation(who, probe.where);
     if (!probe.relative_to) return;
     const std::string base = who + ", 'relative_to'";
     check_place(base, *probe.relative_to);

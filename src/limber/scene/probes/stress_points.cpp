@@ -212,7 +212,7 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
     const Eigen::Index row = find_row_of(modes, point);
     p_L.col(i) = X_LB * Vector3(body.rows.x_B.col(row));
     for (Eigen::Index k = 0; k < Sigma_L.cols(); ++k) {
-      Sigma_L.block<6, 1>(6 * i, k) = flexbody::turn_stress(
+      Sigma_L.block<6, 1>(6 * i, k) = flexbody::rotate_stress(
           modes.Sigma_B.block<6, 1>(6 * point, k),
           is_in_layer ? find_section_axes(sections, point) : X_BL.R);
     }

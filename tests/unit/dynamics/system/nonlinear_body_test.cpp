@@ -245,7 +245,7 @@ TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
     const double turn =
         Eigen::AngleAxisd(find_frame_motion(arm.model, state, arm.tip).X_WF.R)
             .angle();
-    const auto told = describe_large_turn(arm.model, state, 0);
+    const auto told = describe_large_rotation(arm.model, state, 0);
     EXPECT_EQ(told.has_value(), turn > 0.4) << turn;
     if (turn > 0.4) {
       EXPECT_THAT(*told, HasSubstr(fmt::format("rotated by {:.3g} rad", turn)));
