@@ -402,7 +402,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   if (!is_adaptive()) {
     take_planned_step(state, progress);
   } else if (!take_free_step(state, visit)) {
-    return heed_within_step(state, progress);
+    return check_stop_within_step(state, progress);
   }
   if (is_look_due(state, ++statistics_.steps)) inspect(state);
   check(state);
@@ -423,8 +423,8 @@ void TimeLoop::tell_progress(const SystemState& state,
 }
 
 // After a part of a step, or an attempt that must be repeated.
-void TimeLoop::heed_within_step(const SystemState& state,
-                                const Progress& progress) {
+void TimeLoop::check_stop_within_step(const SystemState& state,
+                                      const Progress& progress) {
   tell_progress(state, progress);
   if (pulse_.ends_within_step()) end_here(state);
 }

@@ -105,7 +105,8 @@ class TimeLoop {
                     const Visit& visit);
   void take_planned_step(SystemState& state, const Progress& progress);
   void tell_progress(const SystemState& state, const Progress& progress);
-  void heed_within_step(const SystemState& state, const Progress& progress);
+  void check_stop_within_step(const SystemState& state,
+                              const Progress& progress);
   [[noreturn]] void end_here(const SystemState& state) const;
   [[nodiscard]] const Oscillation* find_oscillation(double t) const;
   [[nodiscard]] std::string describe_short_steps(

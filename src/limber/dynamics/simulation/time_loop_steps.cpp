@@ -132,7 +132,7 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
     // Parts of impacts have limits of their own.
     const bool is_fraction = !is_last && !(stepper_.length() < h);
     if (has_moved && is_fraction) count_fraction(state);
-    if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
+    if (end - state.t > kSameTime * h_) check_stop_within_step(state, progress);
   }
   state.t = end;
   time_contact(state, statistics_.linear_solves - solves);
