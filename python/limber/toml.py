@@ -21,7 +21,7 @@ def to_toml(value):
     if isinstance(value, numbers.Real):
         return _to_float(float(value))
     if isinstance(value, str):
-        # JSON's escapes are TOML's, but for DEL.
+        # JSON's escapes are TOML's, except for DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(to_toml(one) for one in value) + "]"

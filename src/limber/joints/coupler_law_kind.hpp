@@ -15,9 +15,9 @@
 #include "limber/joints/scalar/scalar_law.hpp"
 #include "limber/joints/scalar/scalar_law_kind.hpp"
 
-/// What a law between two frames provides. What does not apply to a law it
-/// inherits from one of the bases below; a law that lacks a function does not
-/// compile.
+/// Functions that a law between two frames provides. Those that do not apply to
+/// a law it inherits from one of the bases below; a law that lacks a function
+/// does not compile.
 namespace limber::joints {
 
 /// `evaluate_over_step` balances energies exactly (discrete_gradient.hpp).

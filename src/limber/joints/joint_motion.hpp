@@ -25,7 +25,7 @@ struct JointShape {
   Vector3 second_F = Vector3::UnitX();  ///< unit, of a universal joint [-]
 };
 
-/// What kind of joint a law is, by what it leaves free.
+/// The kind of joint of a law, determined from its free coordinates.
 /// @throws InputError if no kind leaves that free.
 [[nodiscard]] JointShape find_shape(const Joint& joint);
 

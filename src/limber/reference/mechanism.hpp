@@ -69,7 +69,7 @@ struct UniversalElement {
   MechanismFrame F;
   MechanismFrame M;
   joints::UniversalConstraint::Parameters law;
-  int joint_of = kGround;  ///< index, as of a BushingElement
+  int joint_of = kGround;  ///< index, as for a BushingElement
 };
 
 /// Linear spring and damper along a coordinate of M in F. Full turns are not

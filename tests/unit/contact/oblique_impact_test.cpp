@@ -42,8 +42,8 @@ double find_limit(double friction, double restitution) {
   return 3.5 * friction * (1.0 + restitution);
 }
 
-// v_t = v_t0 - mu (1 + e) v_n, and 2/5 R w = mu (1 + e) v_n but for the depth,
-// by which the floor is nearer to the centre.
+// v_t = v_t0 - mu (1 + e) v_n, and 2/5 R w = mu (1 + e) v_n except for the
+// depth, by which the floor is nearer to the centre.
 TEST(ObliqueImpact, SlidesThroughoutAtFlatAngles) {
   for (const double restitution : {1.0, 0.7, 0.3}) {
     for (const double friction : {0.1, 0.3}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A law that forgets one of its answers does not compile. Each of the laws
-// below is whole but for one, and so is no law.
+// below is whole except for one, and so is no law.
 #include "limber/joints/coupler_law_kind.hpp"
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ namespace limber::app {
 /// better.
 struct ErrorCause {
   std::string name;   ///< "step", "modes", "level", "mesh", "contact"
-  std::string finer;  ///< what is done better: "half of the step"
+  std::string finer;  ///< the refinement: "half of the step"
   scene::Overrides overrides;
   /// Error of the run over its difference from the finer one [-].
   double factor = 1.0;

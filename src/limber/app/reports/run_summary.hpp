@@ -70,7 +70,7 @@ struct RunSummary {
 
 /// Reads the record of a run: summary.json, or the checkpoint of a run that was
 /// killed.
-/// @throws InputError if the folder has neither, naming what it is instead, or
+/// @throws InputError if the folder has neither, stating its kind, or
 /// if they are damaged or of another version.
 [[nodiscard]] RunSummary read_run_summary(const std::filesystem::path& folder);
 

@@ -29,7 +29,7 @@ constexpr InputKind kSceneFile = {"file of a scene", std::uint64_t{1} << 28};
 constexpr InputKind kFlatBody = {"flat body", std::uint64_t{1} << 31};
 constexpr std::size_t kMostOutputs = 200;
 
-/// Paths of the files that a scene reads, but for meshes of flexible links.
+/// Paths of the files that a scene reads, except for meshes of flexible links.
 std::set<fs::path> list_files(const scene::Scene& scene) {
   std::set<fs::path> files = {scene.scenario.file};
   if (!scene.scenario.robot.empty()) files.insert(scene.scenario.robot);

@@ -16,7 +16,7 @@ struct Correlation {
   Interval rank_interval;    ///< the same
   std::size_t samples = 0;
 
-  /// Whether the samples tell the coefficient of the ranks from 0.
+  /// Whether the coefficient of the ranks is significantly different from 0.
   [[nodiscard]] bool is_told() const {
     return rank_interval.low > 0.0 || rank_interval.high < 0.0;
   }

@@ -28,7 +28,7 @@ struct Effect {
   std::optional<std::size_t> samples_needed = {};
 };
 
-/// Intervals with a larger half width tell nothing about a fraction [-].
+/// Intervals with a larger half width are meaningless for a fraction [-].
 inline constexpr double kWidestEffect = 0.25;
 /// The intervals of fewer samples are too narrow.
 inline constexpr std::size_t kFewestSamples = 32;
@@ -55,7 +55,8 @@ using Effects = std::vector<std::vector<std::optional<Effect>>>;
     const Study& study, std::size_t runs, const std::vector<StudyRow>& rows,
     std::size_t response);
 
-/// "cannot tell with 12 samples; about 256 would do"; empty if they suffice.
+/// "not significant with 12 samples; about 256 may suffice"; empty if they
+/// suffice.
 [[nodiscard]] std::string describe_doubt(const Study& study,
                                          const Effect& effect);
 

@@ -12,7 +12,7 @@ struct RollingSpring {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< [N m]
 };
 
-/// Under what a contact rolls.
+/// Conditions under which a contact rolls.
 struct RollingLoad {
   double force = 0.0;            ///< normal, damping included, >= 0 [N]
   double stiffness = 0.0;        ///< k of the elastic normal force > 0 [N/m]

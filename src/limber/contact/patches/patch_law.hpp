@@ -49,7 +49,7 @@ struct PatchResponse {
 ///
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
-///            sum W / m) over all patches of the pair, or the damping asked
+///            sum W / m) over all patches of the pair, or the requested damping
 ///            for, the normal force >= 0; friction of LoadShells with the load
 ///            N ~ d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e
 ///            = 0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the

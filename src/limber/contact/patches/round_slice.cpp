@@ -157,7 +157,7 @@ std::optional<SliceBody> find_whole_ball(const SurfaceSlice& slice,
                    fit->error};
 }
 
-// One that is cut goes on as far as its plane, with a round end behind it.
+// One that is cut continues as far as its plane, with a round end behind it.
 std::optional<SliceBody> find_capsule(const SurfaceSlice& slice,
                                       const std::vector<Piece>& pieces) {
   if (pieces.size() != 1) return {};

@@ -15,7 +15,7 @@ Matrix3 rotate(const Matrix3& R_WB, const Matrix3& in_B) {
   return R_WB * in_B * R_WB.transpose();
 }
 
-// The force where W goes on along the normal as d^(p + 1), p of its present
+// The force where W continues along the normal as d^(p + 1), p of its present
 // energy, load and stiffness, and gives way by the layers; or nothing.
 std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
   constexpr int kHalvings = 40;

@@ -12,12 +12,12 @@ namespace limber::contact {
 /// Largest number of convex bodies of a flexible surface.
 inline constexpr std::size_t kMostSurfaceParts = 32;
 
-/// Convex bodies that stand for the slices of a flexible surface, in its body's
+/// Convex bodies that represent the slices of a flexible surface, in its body's
 /// frame.
 struct SurfaceParts {
   std::vector<PlacedBody> bodies;
   std::vector<std::size_t> slices;  ///< of each body
-  /// The largest distance between the surface and what stands for it: nothing
+  /// The largest distance between the surface and its replacement: nothing
   /// of flat faces; of round ones how far they are from round, or the thickness
   /// of a tube's wall [m].
   double error = 0.0;
@@ -32,7 +32,7 @@ struct SurfaceParts {
 [[nodiscard]] SurfaceParts split_surface(
     const flexbody::ContactSurface& surface);
 
-/// Convex bodies that stand for a rigid mesh which split_mesh does not divide,
+/// Convex bodies that represent a rigid mesh which split_mesh does not divide,
 /// or divides too finely: hulls (see find_hull) of what lies in boxes, which
 /// are halved where the hulls are farther from the surface than 1e-3 of its
 /// size, up to kMostSurfaceParts.

@@ -29,7 +29,7 @@ struct SurfaceSlice {
   const std::vector<bool>& is_exact_;
 };
 
-/// A body that stands for a slice, and the largest distance from its surface.
+/// A body that represents a slice, and the largest distance from its surface.
 struct SliceBody {
   PlacedBody body;
   double error = 0.0;  ///< [m]

@@ -34,8 +34,9 @@ struct Axis3 {
   [[nodiscard]] Vector3 at(double s) const { return middle + s * way; }
 };
 
-/// Of an end that goes on as an arc: int (t - x^2 / (2 R))^n dx over x > -R psi
-/// within the lens, psi the sine of the way from it above the plane across it.
+/// Of an end that continues as an arc: int (t - x^2 / (2 R))^n dx over x > -R
+/// psi within the lens, psi the sine of the way from it above the plane across
+/// it.
 struct Arc {
   double value = 0.0;
   double by_t = 0.0;

@@ -15,7 +15,7 @@ namespace limber::contact {
 /// Equation   M = int 4 t^3 dV, m1 = dM = int 12 t^2 g dV - int 4 t^3 (n, r x
 ///            n) dS over the faces of `soft` that do not press; m2 its
 ///            derivative, without that of these faces,
-///            along the motion exp(u, theta) but for terms of theta x u:
+///            along the motion exp(u, theta) except for terms of theta x u:
 ///            int 24 t g g' dV - sum over interfaces of faces i, j
 ///            int 12 t^2 dg dg' / |n_i - n_j| dS - sum_i rotation of the normal
 struct DepthMoments {

@@ -201,7 +201,8 @@ Matrix6 find_bend_of_form(const Weights10& q, const Slopes& slopes,
   return 0.5 * (bend + bend.transpose());
 }
 
-// `bend` of the sums' second derivatives, but for those of g; 0 if not wanted.
+// `bend` of the sums' second derivatives, except for those of g; 0 if not
+// wanted.
 Factor find_factor_of_form(const Form& form, const Slopes& slopes,
                            const Matrix6& bend) {
   constexpr double kStep = 1e-4;

@@ -8,7 +8,7 @@
 
 namespace limber::dynamics {
 
-/// What a user is willing to neglect. Defaults scale with the body: the
+/// Errors that a user is willing to neglect. Defaults scale with the body: the
 /// report's 1 um and 5 cm for a beam of 5 m.
 struct AdviceSettings {
   std::optional<double> displacement;  ///< > 0 [m]
@@ -59,7 +59,7 @@ struct LevelErrors {
                                           const BodyPeaks& peaks);
 
 /// Largest error of a level relative to the deformation, where that exceeds
-/// what the user neglects [-].
+/// the neglected errors [-].
 inline constexpr double kLargestFraction = 0.1;
 /// Rotation of interfaces relative to one another beyond which linear
 /// kinematics, and relative to the mean axes beyond which those of second order

@@ -147,8 +147,8 @@ class Spin {
   }
 
   // Rotations of groups about the axis that nothing holds, as columns. Every
-  // such angle is steady, but for dampers that do not rotate with the group and
-  // brake it, which no angle would balance.
+  // such angle is steady, except for dampers that do not rotate with the group
+  // and brake it, which no angle would balance.
   [[nodiscard]] MatrixX find_free_turns(const SmallMotion& motion,
                                         const SystemState& state) const {
     MatrixX free(motion.size(), 0);

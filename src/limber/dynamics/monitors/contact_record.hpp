@@ -70,7 +70,8 @@ struct ContactRecord {
   /// Of both bodies' rigid motions along the line of the whole impulse of the
   /// normal force, without vibration [-]. None if they touch at the end, no
   /// impact brought them together, or other motion did more than that: beyond 0
-  /// to 1.5, as where a vibrating finger strikes what it hardly approaches.
+  /// to 1.5, for example where a vibrating finger strikes a body that it hardly
+  /// approaches.
   [[nodiscard]] std::optional<double> restitution() const {
     constexpr double kMost = 1.5;
     if (!has_parted || !is_impact()) return std::nullopt;

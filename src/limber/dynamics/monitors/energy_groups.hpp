@@ -44,7 +44,7 @@ class EnergyGroups {
   /// Whether include() would find a new extreme of a drift that matters.
   [[nodiscard]] bool has_new_drift() const;
 
-  /// What a group stores and what its start and loads account for [J].
+  /// Stored energy of a group and the energy of its start and loads [J].
   struct Excess {
     double stored = 0.0;
     double accounted = 0.0;
@@ -52,7 +52,7 @@ class EnergyGroups {
   /// A group whose energy can only be a numerical artefact
   /// (EnergyGrowthObserver).
   [[nodiscard]] std::optional<Excess> find_blow_up(bool is_end);
-  /// Whether a group stores more than ten times what is accounted for.
+  /// Whether a group stores more than ten times the supplied energy.
   [[nodiscard]] bool has_too_much() const;
 
   /// Whether two rows are of one group.

@@ -15,7 +15,7 @@ namespace limber::dynamics {
 /// Limits     in a frame that moves as the group of connected bodies did at the
 ///            start (EnergyGroups). The exchange with other rows is that of the
 ///            powers at both ends of steps, whose error cancels in the sum over
-///            rows, so that an error of one row alone says little.
+///            rows, so that an error of a single row means little.
 struct EnergyRow {
   std::string name;         ///< as "body 'link'"
   double stored = 0.0;      ///< [J]

@@ -13,7 +13,7 @@ namespace {
 // Smaller fractions of the drift do not show its origin [-].
 constexpr double kNamedFraction = 0.1;
 
-// "12 % of the energy ... are lost by t = ...".
+// "0.006 J lost by t = 0.2 s, 12 % of the throughput ...".
 std::string describe_energy(const EnergyDrift& energy) {
   const double drift = energy.drift.value;
   std::string text = fmt::format(

@@ -45,10 +45,10 @@ class ImpactSteps {
   /// Whether the next step, or the last one that was shortened, is part of an
   /// impact that it resolves.
   [[nodiscard]] bool is_struck() const { return is_struck_; }
-  /// Whether the step last asked about is, and did not count as that before;
+  /// Whether the step of the last query is, and did not count as that before;
   /// from here on it does.
   [[nodiscard]] bool take_onset();
-  /// Accepts the step last asked about.
+  /// Accepts the step of the last query.
   void accept(double h);
 
   /// Pair whose impacts shorten steps.

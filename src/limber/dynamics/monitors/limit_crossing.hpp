@@ -16,7 +16,8 @@ namespace limber::dynamics {
 /// Equation   the ratio of the effort before clipping to the limit, along the
 ///            cubic through a drive's coordinate and rate at both ends, with
 ///            the command at its own time
-/// Limits     looked at nine times a step, which is short beside the command's
+/// Limits     evaluated nine times a step, which is short relative to the
+/// command's
 ///            period: a shorter stay is missed. Not for the speed limit of
 ///            effort drives, nor drives that only pull, without a limit.
 class LimitCrossing {

@@ -28,7 +28,7 @@ namespace limber::dynamics {
                                     const Vector3& w_WB_B);
 
 /// Monitors deformations: linear elasticity is valid for small ones only. It
-/// looks at every step, so what it finds does not depend on the outputs.
+/// evaluates every step, so its result does not depend on the outputs.
 ///
 /// Equation   displacements and fractions of stiffness are computed where a
 /// bound

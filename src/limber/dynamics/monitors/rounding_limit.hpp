@@ -25,7 +25,7 @@ class RoundingLimit {
   /// its size. @param state with frames of unreduced bodies at their nodes
   void check(const SystemState& state, std::vector<std::string>& warnings);
 
-  /// Saves or restores whether it was told, for checkpoints.
+  /// Saves or restores whether it was reported, for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:

@@ -17,7 +17,7 @@
 namespace limber::dynamics {
 namespace {
 
-// Number of steps of at most `longest`, but for the rounding of times.
+// Number of steps of at most `longest`, except for the rounding of times.
 long count_parts(double from, double to, double longest) {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double span =
@@ -164,7 +164,7 @@ bool TimeLoop::is_sound(const SystemState& state) {
   try {
     return !step_observer_.has_too_much(state);
   } catch (const NumericalError&) {
-    return true;  // as of a joint whose axis is reversed, which is a cause
+    return true;  // for example a reversed joint axis, which is a cause
   }
 }
 

@@ -63,7 +63,7 @@ class TimeLoop {
            const CheckpointKeeper& keeper);
 
   /// Advances `state` to t [s], at most the end time, and ends a step there;
-  /// ends after the current step once `stops` says so.
+  /// ends after the current step once `stops` returns true.
   /// @param stops called before every step
   /// @returns whether t was reached
   /// @throws NumericalError as run() does.

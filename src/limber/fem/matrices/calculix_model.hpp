@@ -39,7 +39,7 @@ void expand_nodes(const std::vector<ExpandedElement>& elements,
 /// reference node.
 void name_rotations(const InputDeck& deck, std::vector<RowLabel>& rows);
 
-/// Adds what the input file's constraints say of condensed rows: nodes of
+/// Adds the constraints of the input file on condensed rows: nodes of
 /// rigid bodies, first terms of equations. What cannot be had from rows alone
 /// is told in `found`. @param model with tags, x and rows; `rows` beside them
 void add_constraints(const InputDeck& deck, const std::vector<RowLabel>& rows,

@@ -161,7 +161,7 @@ class InputDeckReader {
     if (keyword_.has("NSET")) sets_[keyword_.get("NSET")].push_back(node);
   }
 
-  /// Number, nodes; a line that ends in a comma goes on.
+  /// Number, nodes; a line that ends in a comma continues.
   void add_element(std::string_view line) {
     if (!continued_) element_.clear();
     for (const std::string_view field : split_commas(line))

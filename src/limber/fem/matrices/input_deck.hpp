@@ -29,7 +29,7 @@ struct DeckRigid {
   std::array<bool, 3> translations = {true, true, true};  ///< that follow
 };
 
-/// What an input file of CalculiX or Abaqus says of nodes.
+/// Data of nodes in an input file of CalculiX or Abaqus.
 struct InputDeck {
   ModelFile model;
   std::vector<DeckEquation> equations;

@@ -13,7 +13,7 @@
 
 namespace limber::fem {
 
-/// What a row (and column) of the matrices moves.
+/// The degree of freedom of a row (and column) of the matrices.
 struct MatrixRow {
   int node = -1;       ///< index into MatrixModel::tags; -1: no node (a scalar
                        ///< point, a generalized coordinate)

@@ -122,7 +122,7 @@ struct HarmonicError {
 /// Limits     undamped, omega^2 < lambda_cut
 /// @param lambda_cut lowest omitted eigenvalue, or any value below it
 /// @param omega load's angular frequency [rad/s]
-/// @throws InputError if omega^2 >= lambda_cut: such a mode must be kept.
+/// @throws InputError if omega^2 >= lambda_cut: such a mode must be retained.
 [[nodiscard]] HarmonicError calc_harmonic_error(double static_error,
                                                 double lambda_cut,
                                                 double omega);

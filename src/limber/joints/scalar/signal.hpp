@@ -53,7 +53,7 @@ struct SineSignal {
 /// linear between its samples. Without a state it has no value.
 struct InputSignal {
   int input = 0;        ///< index of the system's input
-  double factor = 1.0;  ///< [unit of what is driven / unit of the input]
+  double factor = 1.0;  ///< [unit of the driven quantity / unit of the input]
 };
 
 /// One impulse of an input shaper: a fraction of the command, delayed.

@@ -30,7 +30,7 @@ struct MatrixInertia {
 /// A superelement, whose interior moves in rows without a node or was
 /// condensed, is none: with recovery rows its mass is fitted to points that
 /// move as these say, and without them J0 and P alone are known, and record.gap
-/// says why.
+/// states why.
 ///
 /// Equation   sum_p m_p [X_p Phi_p]^T [X_p Phi_p] = [X Phi]^T M [X Phi], m_p >=
 ///            0, in the least square; S1_k = sum m_p x_p u_pk^T, S2_kl = sum

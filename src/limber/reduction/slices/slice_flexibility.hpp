@@ -5,7 +5,7 @@
 #include "limber/reduction/slices/slice_motion.hpp"
 #include "limber/reduction/slices/surface_division.hpp"
 
-/// What a slice gives way beyond its motion as one piece. Part of
+/// Local flexibility of a slice beyond its motion as one piece. Part of
 /// limber_reduction.
 namespace limber::flexbody {
 

@@ -41,7 +41,7 @@ std::optional<Vector3> project(const Vector3& moments, unsigned zero) {
 }
 
 Vector3 find_nearest_moments(const Vector3& moments) {
-  constexpr double kLeast = 1e-6;  // of the largest, as of a thin rod
+  constexpr double kLeast = 1e-6;  // of the largest, for example of a thin rod
   Vector3 best = Vector3::Zero();
   double distance = std::numeric_limits<double>::infinity();
   for (unsigned zero = 0; zero < 8; ++zero) {

@@ -182,7 +182,7 @@ class Setter {
         all));
   }
 
-  /// Whether part i is an attribute, the last one but for an index.
+  /// Whether part i is an attribute, the last one except for an index.
   [[nodiscard]] bool ends_at(std::size_t i) const {
     if (i + 1 == parts_.size()) return true;
     return i + 2 == parts_.size() && to_index(parts_.back()).has_value();

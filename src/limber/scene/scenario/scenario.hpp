@@ -247,7 +247,7 @@ struct Scenario {
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< deviations from the file's values
-  std::vector<std::string> notes;     ///< what a user may not expect of it
+  std::vector<std::string> notes;     ///< notices for the user
   dynamics::AdviceSettings advice;    ///< what may be neglected
 
   [[nodiscard]] dynamics::Fidelity level_of(const std::string& link) const {
