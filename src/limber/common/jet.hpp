@@ -89,7 +89,7 @@ inline JetVector cross(const JetVector& a, const JetVector& b) {
           a[0] * b[1] - a[1] * b[0]};
 }
 
-/// x turned by exp(sign theta) of a motion (u, theta).
+/// x rotated by exp(sign theta) of a motion (u, theta).
 inline JetVector apply_rotation(const JetVector& x, double sign) {
   JetVector theta;
   for (int i = 0; i < 3; ++i) {

@@ -10,7 +10,8 @@
 #include "limber/reduction/body_with_surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
 
-/// Surfaces of a body that may touch others. Part of limber_reduction.
+/// Surfaces of a body that may be in contact with others. Part of
+/// limber_reduction.
 namespace limber::flexbody {
 
 /// The surfaces of the recipe's contact groups.

@@ -27,7 +27,7 @@ struct JointCheck {
   double fastest_hz = 0.0;  ///< dynamics::find_coupler_frequencies [Hz]
 };
 
-/// Two bodies that may touch, at the start.
+/// Two bodies that may be in contact, at the start.
 struct ContactCheck {
   std::string pair;
   double gap = 0.0;  ///< negative where they overlap [m]
@@ -91,7 +91,8 @@ struct SceneCheck {
 };
 
 [[nodiscard]] Json to_json(const SceneCheck& check);
-/// At most a screen: of many bodies, joints and contacts those that matter.
+/// At most one screen: of many bodies, joints and contacts the most important
+/// ones.
 [[nodiscard]] std::string to_text(const SceneCheck& check);
 
 }  // namespace limber::app

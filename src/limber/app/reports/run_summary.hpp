@@ -19,7 +19,7 @@ enum class RunEnd {
   killed,   ///< only its checkpoint is there
 };
 
-/// What a run recorded, as its results folder has it.
+/// Record of a run, as stored in its results folder.
 struct RunSummary {
   struct Steps {
     std::string by;  ///< name of a StepCause

@@ -8,7 +8,7 @@
 /// Texts about the limits of a linearisation.
 namespace limber::app {
 
-/// Words for the reference state of a linearisation and for its result.
+/// Texts for the reference state of a linearisation and for its result.
 struct LinearisedAt {
   std::string where = "the start";  ///< "the start", "the state at 1 s"
   std::string result =

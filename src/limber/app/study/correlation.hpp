@@ -8,7 +8,7 @@
 
 namespace limber::app {
 
-/// How a response goes with a factor, from -1 to 1 [-].
+/// Correlation of a response with a factor, from -1 to 1 [-].
 struct Correlation {
   double linear = 0.0;  ///< Pearson's coefficient
   double rank = 0.0;    ///< Spearman's: of the ranks, for any monotonic law

@@ -5,7 +5,7 @@
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/pair_mobility.hpp"
 
-/// The mass that two bodies oppose to the normal forces of their touch.
+/// The effective mass of two bodies against their normal contact forces.
 namespace limber::contact {
 
 /// Sum of the normal forces on one side.
@@ -19,7 +19,7 @@ struct NormalLoad {
            const Vector3& added_W);
 };
 
-/// A rigid body that nothing else holds.
+/// A free rigid body.
 class FreeBody {
  public:
   /// @param mass > 0; infinity of the world [kg]
@@ -47,7 +47,7 @@ class FreeBody {
                                        const joints::PairBodies& bodies,
                                        const NormalLoad& load, double F);
 
-/// The same of bodies in joints.
+/// The same for bodies in joints.
 ///
 /// Equation   1/m = g . Y g / F^2
 [[nodiscard]] double find_inverse_mass(const joints::PairMobility& Y,

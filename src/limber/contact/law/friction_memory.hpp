@@ -49,9 +49,9 @@ inline constexpr std::size_t kFrictionNumbers = 13 + 5 * kShells;
                                            const BodyRotations& rotations,
                                            const RollingSpring& rolling = {});
 
-/// The springs at present rotations: turned by the mean of both bodies' turns
-/// since then, whatever the bodies' order, into the present tangent plane,
-/// where they keep their length.
+/// The springs at present rotations: rotated by the mean of both bodies'
+/// rotations since then, whatever the bodies' order, into the present tangent
+/// plane, where they keep their length.
 [[nodiscard]] ShellMemory recall_friction(const FrictionMemory& memory,
                                           const FrictionFrame& frame,
                                           const BodyRotations& rotations);
@@ -61,7 +61,7 @@ inline constexpr std::size_t kFrictionNumbers = 13 + 5 * kShells;
                                            const FrictionFrame& frame,
                                            const BodyRotations& rotations);
 
-/// Rotation of B against A since then, less than half a turn [rad].
+/// Rotation of B relative to A since then, less than half a turn [rad].
 [[nodiscard]] Vector3 find_rotation_W(const FrictionMemory& memory,
                                       const BodyRotations& rotations);
 

@@ -19,7 +19,7 @@ struct RollingLoad {
   double inverse_inertia = 0.0;  ///< of both bodies >= 0 [1/(kg m^2)]
 };
 
-/// Of B against A, about the same axes.
+/// Of B relative to A, about the same axes.
 struct RollingMotion {
   Eigen::Vector2d rotation =
       Eigen::Vector2d::Zero();                     ///< since the last commit

@@ -10,13 +10,14 @@
 
 namespace limber::contact {
 
-/// A ball on the surface of a flexible body, which touch at one point.
+/// A sphere on the surface of a flexible body, in contact at one point.
 ///
 /// Equation   HertzLaw with k = 4/3 E* sqrt(R_e), 1 / R_e = 1 / r + the mean
 ///            curvature of the surface >= 1 / find_roundness, and its residual
 ///            flexibility, all at the place nearest to the ball's centre; the
 ///            patch moves with the body and the modes there
-/// Limits     the tangent takes the normal as constant; the turn of the surface
+/// Limits     the tangent takes the normal as constant; the rotation of the
+/// surface
 ///            by the modes is left out of friction and damping
 class BallOnSurface final : public PatchFinder {
  public:

@@ -30,7 +30,7 @@ struct ContactSide {
   std::vector<std::size_t> slices = {};
 };
 
-/// Both sides and the law between them: all that forces depend on.
+/// Both sides and the law between them: everything that forces depend on.
 void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
               const ContactParameters& parameters);
 
@@ -38,9 +38,10 @@ void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
 /// @throws InputError if neither has a finite mass.
 [[nodiscard]] double check_masses(const ContactSide& A, const ContactSide& B);
 
-/// The mass that both bodies oppose to normal forces: as free ones, unless a
-/// mobility of joints is kept in their pair's memory, whose last kNumbers are
-/// those of a joints::PairMobility by columns, zero without joints.
+/// The effective mass of both bodies against normal forces: as free bodies,
+/// unless a mobility of joints is kept in their pair's memory, whose last
+/// kNumbers are those of a joints::PairMobility by columns, zero without
+/// joints.
 class OpposedMass {
  public:
   static constexpr std::size_t kNumbers = 144;

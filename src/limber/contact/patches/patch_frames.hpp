@@ -10,7 +10,7 @@
 #include "limber/contact/patches/surface_parts.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 
-/// Where the parts of both sides of a pair are, and which may touch.
+/// Poses of the parts of both sides of a pair, and which may be in contact.
 namespace limber::contact {
 
 /// The frames of all parts of one side: of a rigid mesh all the same, of a

@@ -12,7 +12,7 @@
 
 namespace limber::contact {
 
-/// What friction has been, and the motion since then.
+/// Friction at the last commit, and the motion since then.
 struct PatchSlip {
   FrictionMemory last;
   BodyRotations rotations;
@@ -29,7 +29,7 @@ struct PatchMotion {
   double inverse_inertia = 0.0;
 };
 
-/// What acts on B, about the centre of pressure.
+/// The wrench on B, about the centre of pressure.
 struct PatchResponse {
   PatchWrench wrench;
   Vector3 normal_W = Vector3::Zero();    ///< from A to B [-]

@@ -23,7 +23,7 @@ struct SurfaceFacet {
     const flexbody::ContactSurface& surface);
 
 /// Whether a surface is closed and of flat faces: where two facets meet, they
-/// lie in one plane, within 1e-3, or turn by more than 20 degrees.
+/// lie in one plane, within 1e-3, or differ by more than 20 degrees.
 [[nodiscard]] bool is_polyhedral(const std::vector<SurfaceFacet>& facets);
 
 /// The nodes that are on the surface itself: of those in the middle of straight

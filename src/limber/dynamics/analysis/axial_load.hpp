@@ -7,7 +7,7 @@
 
 namespace limber::dynamics {
 
-/// Axial load and strain of a body at one instant.
+/// Axial load and strain of a body at one time.
 struct AxialState {
   double fraction = 0.0;  ///< of what makes it buckle, > 0 under tension [-]
   double strain = 0.0;    ///< mean, > 0 under tension [-]

@@ -14,7 +14,7 @@
 
 namespace limber::dynamics {
 
-/// One instant in the plane of the decision boundary.
+/// One time in the plane of the decision boundary.
 struct RotationPoint {
   double alpha = 0.0;  ///< [rad/s^2]
   double Omega = 0.0;  ///< [rad/s]

@@ -8,7 +8,7 @@
 
 namespace limber::dynamics {
 
-/// What becomes of motion that steps do not resolve.
+/// Treatment of motion that steps do not resolve.
 enum class UnresolvedMotion {
   kept,       ///< damped as requested of the scheme
   conserved,  ///< not damped, for impacts that steps resolve

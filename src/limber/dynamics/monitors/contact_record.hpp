@@ -10,9 +10,9 @@
 
 namespace limber::dynamics {
 
-/// What became of the energy of an impact, or of a rest, from its first touch
-/// to its end: of both bodies' motion, and of their deformation without that
-/// at the contact. Neither what else moves nor a common velocity matters.
+/// Energy balance of an impact, or of a resting contact, from its beginning to
+/// its end: of both bodies' motion, and of their deformation without that at
+/// the contact. Neither what else moves nor a common velocity matters.
 ///
 /// Equation   in = stored + returned + damped + rubbed - error
 /// Limits     `returned` is that of the powers at the ends of steps. Where

@@ -17,8 +17,8 @@
 
 namespace limber::dynamics {
 
-/// Monitors which pairs touch from step to step, and finds when they first
-/// touch and last leave each other.
+/// Monitors which pairs are in contact from step to step, and locates the
+/// beginning and the end of contact.
 ///
 /// Equation   between a step's ends positions are cubic, as for outputs between
 ///            steps. A touch is found by conservative advancement: no touch is
@@ -27,7 +27,8 @@ namespace limber::dynamics {
 ///            bodies have moved that far (TravelBound): distant pairs cost two
 ///            sums a step
 /// Source     [@mirtich1996, ch. 2]
-/// Limits     a leave and a touch within one step are not detected; between two
+/// Limits     an end and a beginning of contact within one step are not
+/// detected; between two
 ///            evaluations a body must not turn by more than half a turn
 class ContactStartObserver {
  public:

@@ -16,7 +16,7 @@ namespace limber::dynamics {
 inline constexpr double kLeastGrowth = 1.01;
 
 /// Energies judged by groups of bodies that are connected to each other, each
-/// beside what is at stake in it: neither what else moves in a scene nor a
+/// relative to its own throughput: neither what else moves in a scene nor a
 /// common velocity changes a verdict.
 ///
 /// Equation   in the frame of a group that is not connected to the world, with

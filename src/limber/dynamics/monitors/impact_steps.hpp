@@ -23,7 +23,8 @@ namespace limber::dynamics {
 ///            of the run; what is slower, for longer than a turn takes, rests,
 ///            as a body on the ground, or in a grip that tightens. After a step
 ///            one longer by a quarter is tried.
-/// Limits     a longer step gets at most so many parts; the rest of it is taken
+/// Limits     a longer step gets at most that many parts; the remainder is
+/// taken
 ///            at once
 class ImpactSteps {
  public:

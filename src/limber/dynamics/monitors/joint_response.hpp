@@ -29,8 +29,8 @@ struct JointResponse {
   [[nodiscard]] bool is_enough() const { return fraction() >= kEnough; }
 };
 
-/// One for each pair of bodies that touched and each joint that holds one of
-/// them, where neither of the joint's bodies has modes.
+/// One for each pair of bodies that touched and each joint that is connected to
+/// one of them, where neither of the joint's bodies has modes.
 [[nodiscard]] std::vector<JointResponse> find_joint_responses(
     const SystemModel& model, const std::vector<ContactRecord>& records);
 

@@ -10,8 +10,8 @@
 namespace limber::dynamics {
 
 /// Finds where drives reach and leave their effort limit within a step, and
-/// where those that only pull go slack and taut: there the rate of the effort
-/// jumps, and schemes of second order lose an order.
+/// where drives that only pull become slack or taut: there the rate of the
+/// effort jumps, and schemes of second order lose an order.
 ///
 /// Equation   the ratio of the effort before clipping to the limit, along the
 ///            cubic through a drive's coordinate and rate at both ends, with

@@ -82,8 +82,8 @@ class LinearLimit {
 [[nodiscard]] std::optional<std::string> describe_softening(
     const BodyModel& body, const Vector3& w_WB_B);
 
-/// Warning about a body at level nonlinear, an interface of which has turned by
-/// more than 0.4 rad; nothing if none has.
+/// Warning about a body at level nonlinear, an interface of which has rotated
+/// by more than 0.4 rad; nothing if none has.
 [[nodiscard]] std::optional<std::string> describe_large_rotation(
     const SystemModel& model, const SystemState& state, std::size_t body);
 

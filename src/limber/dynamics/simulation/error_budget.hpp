@@ -5,7 +5,7 @@
 
 namespace limber::dynamics {
 
-/// The error that each step of a run may have.
+/// The error allowed in each step of a run.
 class ErrorBudget {
  public:
   /// The same for every step [m].

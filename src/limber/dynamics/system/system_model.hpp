@@ -113,7 +113,7 @@ struct Transmission {
 };
 
 /// Two bodies, or a body and the world, that may act on each other at points
-/// that come and go.
+/// that appear and disappear.
 struct Pair {
   std::string name;
   BodyIndex body_A = kWorld;

@@ -6,7 +6,7 @@
 namespace limber::dynamics {
 
 /// Numerical damping of the modes that a step of EnergyConserving does not
-/// resolve, which a midpoint would reverse from step to step for ever.
+/// resolve, which the midpoint rule would reverse in every step.
 ///
 /// Equation   with theta = 1 / (1 + rho) and u = (eta_1 - eta_0) / h:
 ///            u = theta eta'_1 + (1 - theta) eta'_0, and the elastic force is

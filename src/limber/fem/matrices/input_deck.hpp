@@ -42,7 +42,7 @@ struct InputDeck {
 
 /// Reads *NODE, *ELEMENT, *NSET, *ELSET, *BOUNDARY, *EQUATION, *RIGID BODY,
 /// *COUPLING with *KINEMATIC and *INCLUDE; of parts, one instance that is not
-/// moved. Other keywords are passed over.
+/// moved. Other keywords are ignored.
 /// Source: CalculiX 2.20 User's Manual, Abaqus Keywords Reference Guide.
 /// @throws InputError with file and line, also for nodes that the program
 /// generates or that are given in other coordinates (*NGEN, *SYSTEM ...)

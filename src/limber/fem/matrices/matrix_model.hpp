@@ -34,8 +34,8 @@ struct MatrixNodeSet {
   std::vector<int> nodes;  ///< sorted indices into MatrixModel::tags
 };
 
-/// What of a structure may touch others: solids that fill its shells and beams,
-/// and its solid elements.
+/// Surface of a structure that may be in contact with others: solids that fill
+/// its shells and beams, and its solid elements.
 struct ModelSurface {
   Mesh mesh;  ///< blocks alone; its nodes are those of the model
   std::vector<SolidMaterial> materials;  ///< by region, in SI units

@@ -56,7 +56,7 @@ struct SourceMatrix {
 /// any other name.
 [[nodiscard]] int find_second_moment(const std::filesystem::path& file);
 
-/// What rows are, in the order of the matrices.
+/// Labels of rows, in the order of the matrices.
 struct RowTable {
   std::filesystem::path file;
   std::string format;

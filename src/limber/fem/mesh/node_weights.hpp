@@ -23,12 +23,12 @@ struct WeightedNodes {
   Matrix3X moments;        ///< y, sum to zero [m]
 };
 
-/// Shares of a load spread evenly over a physical group: a surface, a curve or
-/// a volume; equal over points.
+/// Fractions of a load spread evenly over a physical group: a surface, a curve
+/// or a volume; equal over points.
 [[nodiscard]] WeightedNodes weigh_group(const Mesh& mesh,
                                         const PhysicalGroup& group);
 
-/// Every node the same share.
+/// Every node with the same fraction.
 [[nodiscard]] WeightedNodes weigh_equally(const Mesh& mesh,
                                           std::vector<int> nodes);
 
@@ -43,8 +43,8 @@ struct NearNodes {
     const Mesh& mesh, const std::function<double(const Vector3&)>& distance,
     double tolerance);
 
-/// Shares of a load spread evenly over the boundary faces that lie wholly in
-/// `nodes`; equal shares if there is no such face.
+/// Fractions of a load spread evenly over the boundary faces that lie wholly in
+/// `nodes`; equal fractions if there is no such face.
 [[nodiscard]] WeightedNodes weigh_boundary(const Mesh& mesh,
                                            const std::vector<int>& nodes);
 

@@ -57,9 +57,9 @@ struct ContactSlice {
   Matrix3 own_B = Matrix3::Zero();
 };
 
-/// The part of a body's surface that may touch others: its nodes with the
-/// smoothed motion of a patch around each, and the residual flexibility of the
-/// basis there.
+/// The part of a body's surface that may be in contact with others: its nodes
+/// with the smoothed motion of a patch around each, and the residual
+/// flexibility of the basis there.
 ///
 /// Equation   u_p = n . Phi_B(p) eta + R_p f,  f a normal force on the patch
 ///            under Hertz's pressure of radius b: w^T of the displacements,

@@ -38,7 +38,8 @@ struct FullContactSurface {
   std::vector<NodalPiece> pieces;  ///< of all parts, or of all slices
 };
 
-/// Additional interface of a FullBodySolver whose body may touch others.
+/// Additional interface of a FullBodySolver whose body may be in contact with
+/// others.
 class ContactSurfaces {
  public:
   ContactSurfaces() = default;

@@ -6,7 +6,7 @@
 
 namespace limber::flexbody {
 
-/// Result of turning one file of nodal forces into static-deformation modes,
+/// Result of converting one file of nodal forces into static-deformation modes,
 /// stored with the body.
 struct LoadModesRecord {
   std::string name;

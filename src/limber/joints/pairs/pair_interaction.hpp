@@ -170,8 +170,8 @@ struct PairStep {
 
 class Touching;
 
-/// Forces between two bodies, or a body and the world, at points that come and
-/// go. Immutable; one virtual call a pair and evaluation.
+/// Forces between two bodies, or a body and the world, at points that appear
+/// and disappear. Immutable; one virtual call a pair and evaluation.
 ///
 /// Equation   d energy / dt + dissipation = -sum_i force_i . (v_B - v_A)_i
 /// Limits     at level `full` eta are displacements of the nodes [m].
