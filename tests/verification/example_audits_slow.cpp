@@ -104,7 +104,7 @@ TEST(ExampleAudit, ClosesToATenThousandthAsTheFilesAre) {
   for (const fs::path& file : find_examples()) {
     SCOPED_TRACE(file.filename());
     EXPECT_LE(audit(scene::load_scene(file)).drift,
-              0.01 * dynamics::kToldDrift);
+              0.01 * dynamics::kReportedDrift);
   }
 }
 

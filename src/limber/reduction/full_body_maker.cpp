@@ -169,8 +169,8 @@ void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
 }
 
 // Implicit steps and equilibria need factors, one or more each.
-void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
-                  const Progress& progress) {
+void report_factors(const std::string& name, const fem::SparseMatrix& M_s,
+                    const Progress& progress) {
   constexpr Eigen::Index kMany = 10000;  // nodes; fewer are always fast
   constexpr double kLong = 5.0;          // s, of many
   if (!progress || M_s.cols() < kMany) return;
@@ -202,7 +202,7 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   const std::vector<int> held = find_clamped_nodes(mesh, recipe);
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
   const fem::SparseMatrix M_s = fem::assemble(mesh, materials, progress).M_s;
-  tell_factors(recipe.name, M_s, progress);
+  report_factors(recipe.name, M_s, progress);
   const Vector3 center = fem::calc_mass_properties(M_s, mesh.x).center;
   const Matrix3X x_B = mesh.x.colwise() - center;
   std::vector<FullContactSurface> surfaces =

@@ -66,13 +66,13 @@ std::vector<std::string> find_cut_contacts(
     const scene::Robot& robot, const SystemModel& model,
     const std::vector<ContactRecord>& records) {
   const std::vector<CutSide> sides = list_sides(robot, model, records);
-  std::set<std::pair<std::string, BodyIndex>> said;
+  std::set<std::pair<std::string, BodyIndex>> reported;
   std::vector<std::string> warnings;
   for (const CutSide& a : sides) {
     for (const CutSide& b : sides) {
       if (a.link != b.link || a.other != b.other || a.piece >= b.piece ||
           !overlap(*a.record, *b.record) ||
-          !said.insert({a.link, a.other}).second) {
+          !reported.insert({a.link, a.other}).second) {
         continue;
       }
       const std::string what =

@@ -217,7 +217,7 @@ std::optional<std::string> find_imbalance(const dynamics::EnergyDrift& finer,
   constexpr double kMuchMore = 2.0;
   const double open = dynamics::find_unbalanced_fraction(finer);
   const double most =
-      std::max(dynamics::kToldDrift,
+      std::max(dynamics::kReportedDrift,
                kMuchMore * dynamics::find_unbalanced_fraction(own));
   if (!(open > most)) return std::nullopt;
   return fmt::format(

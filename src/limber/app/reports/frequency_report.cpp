@@ -23,7 +23,8 @@ void warn(FrequencyReport& f) {
   if (m.imbalance.matters) {
     f.warnings.push_back(describe_imbalance(m.imbalance, m.is_moving));
   }
-  if (m.change > kTellChange) f.warnings.push_back(describe_change(m.change));
+  if (m.change > kReportedChange)
+    f.warnings.push_back(describe_change(m.change));
 }
 
 std::string name_whirl(const dynamics::NaturalMode& mode) {

@@ -128,7 +128,7 @@ bool has_level(const RunSummary& run, const std::string& level) {
 
 void add_energy(const RunSummary& run, Weighted& all) {
   if (!run.unbalanced_fraction ||
-      !(*run.unbalanced_fraction > dynamics::kToldDrift))
+      !(*run.unbalanced_fraction > dynamics::kReportedDrift))
     return;
   const std::string why =
       fmt::format("the energy error is {:.2g} % of the throughput, most in {}",

@@ -26,6 +26,6 @@ struct LinearisedAt {
                                           const LinearisedAt& at = {});
 
 /// Changes beyond this are reported [-].
-inline constexpr double kTellChange = 1e-6;
+inline constexpr double kReportedChange = 1e-6;
 
 }  // namespace limber::app

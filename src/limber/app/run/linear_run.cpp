@@ -75,7 +75,7 @@ void add_linear_warnings(const std::string& where, LinearRun& run) {
     warnings.push_back(
         describe_imbalance(system.imbalance, system.is_moving, at));
   }
-  if (system.change > kTellChange) {
+  if (system.change > kReportedChange) {
     warnings.push_back(describe_change(system.change, at));
   }
   const auto& more = run.linear.warnings;

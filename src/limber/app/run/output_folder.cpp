@@ -121,8 +121,8 @@ void replace_in_all(std::vector<std::string>& problems, const fs::path& made,
 
 std::optional<fs::path> make_rescue_folder() {
   constexpr const char* kPrefix = "limber-results-";
-  const char* const asked = std::getenv("TMPDIR");
-  const fs::path temporary = asked == nullptr ? "/tmp" : asked;
+  const char* const requested = std::getenv("TMPDIR");
+  const fs::path temporary = requested == nullptr ? "/tmp" : requested;
   for (const fs::path& prefix : {temporary / kPrefix, fs::path(kPrefix)}) {
     try {
       return make_private_folder(prefix);

@@ -21,7 +21,7 @@ namespace {
 std::string describe_open(const runs::Run& run) {
   const dynamics::EnergyDrift& energy = run.record.energy.worst;
   const double fraction = dynamics::find_unbalanced_fraction(energy);
-  if (!(fraction > dynamics::kToldDrift)) return "";
+  if (!(fraction > dynamics::kReportedDrift)) return "";
   return fmt::format(" (energy error {:.2g} % at {:.4g} s, most in {})",
                      100.0 * fraction, energy.drift.time, energy.place);
 }

@@ -17,7 +17,7 @@ struct Correlation {
   std::size_t samples = 0;
 
   /// Whether the coefficient of the ranks is significantly different from 0.
-  [[nodiscard]] bool is_told() const {
+  [[nodiscard]] bool is_significant() const {
     return rank_interval.low > 0.0 || rank_interval.high < 0.0;
   }
 };

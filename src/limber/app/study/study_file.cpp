@@ -237,14 +237,14 @@ StudyRecord StudyFile::read_record() const {
   return record;
 }
 
-void StudyFile::check(const StudyRecord& asked) const {
+void StudyFile::check(const StudyRecord& requested) const {
   const StudyRecord own = read_record();
   std::vector<std::string> differences =
-      find_differences(Manifest(own.manifest), Manifest(asked.manifest));
-  if (own.shard != asked.shard || own.shards != asked.shards) {
+      find_differences(Manifest(own.manifest), Manifest(requested.manifest));
+  if (own.shard != requested.shard || own.shards != requested.shards) {
     differences.push_back(fmt::format("shard: {}/{} -> {}/{}", own.shard + 1,
-                                      own.shards, asked.shard + 1,
-                                      asked.shards));
+                                      own.shards, requested.shard + 1,
+                                      requested.shards));
   }
   if (differences.empty()) return;
   constexpr std::size_t kMostListed = 5;

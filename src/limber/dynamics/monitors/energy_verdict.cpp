@@ -65,7 +65,7 @@ double find_unbalanced_fraction(const EnergyDrift& energy) {
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& record,
                     std::vector<std::string>& warnings) {
   const EnergyDrift& energy = record.worst;
-  if (!(find_unbalanced_fraction(energy) > kToldDrift)) return;
+  if (!(find_unbalanced_fraction(energy) > kReportedDrift)) return;
   warnings.push_back(fmt::format("energy error: {}; {}",
                                  describe_energy(energy),
                                  advise(integrator, energy)));

@@ -232,13 +232,13 @@ void ImpactObserver::add_warnings(std::vector<std::string>& warnings) const {
 
 void ImpactObserver::add_deep(const std::vector<ContactRecord>& records,
                               std::vector<std::string>& warnings) const {
-  std::set<std::string> said;
+  std::set<std::string> reported;
   for (const ContactRecord& record : records) {
     const double over_extent = record.peak_depth / find_extent(record.pair);
     const double over_radius = record.peak_depth_over_radius;
     const bool is_round = over_radius > kDeepest;
     if (!is_round && !(over_extent > kDeepest)) continue;
-    if (!said.insert(record.pair).second) continue;
+    if (!reported.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
         "contact '{}': the impact at t = {:.6g} s penetrates by {:.3g} m, "
         "{:.2g} of the {}; Hertz's law assumes small deformation: beyond {:g} "
@@ -263,7 +263,7 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
     Worst& worst = pairs[record.pair];
     const double fraction = record.energy.unbalanced_fraction();
     ++worst.impacts;
-    if (!(fraction > kToldDrift)) continue;
+    if (!(fraction > kReportedDrift)) continue;
     ++worst.open;
     if (worst.record == nullptr ||
         fraction > worst.record->energy.unbalanced_fraction()) {
@@ -281,17 +281,17 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
         energy.error < 0.0 ? "lost" : "gained",
         100.0 * energy.unbalanced_fraction(),
         std::max(energy.in, energy.returned), worst.open, worst.impacts,
-        100.0 * kToldDrift, advise_on_impacts(scheme_)));
+        100.0 * kReportedDrift, advise_on_impacts(scheme_)));
   }
 }
 
 // Once per pair, for touches without a common normal (Touching::begin_touch).
 void ImpactObserver::add_unmet(const std::vector<ContactRecord>& records,
                                std::vector<std::string>& warnings) const {
-  std::set<std::string> said;
+  std::set<std::string> reported;
   for (const ContactRecord& record : records) {
     if (!std::isinf(record.impact_duration)) continue;
-    if (!said.insert(record.pair).second) continue;
+    if (!reported.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
         "contact '{}': at t = {:.6g} s the surfaces in contact do not face "
         "each other, for example an open surface hit from behind: no force "

@@ -86,7 +86,7 @@ class ImpactSteps {
   std::size_t fastest_ = 0;
   double rest_frequency_ = 0.0;  // largest of those that do not count [rad/s]
   bool has_excess_ = false;
-  bool was_told_ = false;
+  bool was_reported_ = false;
 };
 
 }  // namespace limber::dynamics

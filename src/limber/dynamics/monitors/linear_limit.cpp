@@ -91,7 +91,7 @@ std::string name_limit(const BodyModel& body) {
 }
 
 // Behaviour of a body beyond the critical speed of its undeformed shape.
-const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
+const char* describe_beyond(const flexbody::ModalElasticity& elasticity) {
   return flexbody::is_linear(elasticity)
              ? "its deformation grows without bound; level full includes the "
                "stiffening of a real body"
@@ -133,7 +133,8 @@ std::optional<std::string> describe_softening(const BodyModel& body,
       "body '{}' rotates at {:.4g} rad/s, above its critical speed of {:.4g} "
       "rad/s in linear elasticity: its effective stiffness is below zero and "
       "{}",
-      body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
+      body.name, speed, speed / std::sqrt(mu),
+      describe_beyond(body.elasticity));
 }
 
 std::optional<std::string> describe_large_rotation(const SystemModel& model,
@@ -175,7 +176,7 @@ bool LinearLimit::may_exceed(const SystemState& state, Body& body,
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
                                     std::vector<std::string>& warnings) const {
   if (body.size == 0.0) return;
-  const double fraction = body.was_told_large ? kAbsurdDeformation : kLarge;
+  const double fraction = body.was_reported_large ? kAbsurdDeformation : kLarge;
   if (!may_exceed(state, body, fraction * body.size)) return;
   const BodyModel& model = model_.bodies[body.index];
   const double deformation = body.displacement;
@@ -200,8 +201,8 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
         (soft ? "; " + *soft
               : "; smaller loads, a stiffer body or level full may help"));
   }
-  if (body.was_told_large) return;
-  body.was_told_large = true;
+  if (body.was_reported_large) return;
+  body.was_reported_large = true;
   if (is_nonlinear) {
     warnings.push_back(fmt::format(
         "{}, and rotated by {:.3g} rad at an interface: beyond {:g} rad level "
@@ -229,11 +230,11 @@ bool LinearLimit::may_soften(const SystemState& state, Body& body) const {
 
 void LinearLimit::check_speed(const SystemState& state, Body& body,
                               std::vector<std::string>& warnings) const {
-  if (body.was_told_soft || !may_soften(state, body)) return;
+  if (body.was_reported_soft || !may_soften(state, body)) return;
   const auto text = describe_softening(model_.bodies[body.index],
                                        state.bodies[body.index].w_WB_B);
   if (!text) return;
-  body.was_told_soft = true;
+  body.was_reported_soft = true;
   warnings.push_back(fmt::format("at t = {:.9g} s {}", state.t, *text));
 }
 
@@ -246,7 +247,8 @@ void LinearLimit::check(const SystemState& state,
 }
 
 void LinearLimit::exchange_memory(Archive& archive) {
-  for (Body& body : bodies_) archive(body.was_told_large, body.was_told_soft);
+  for (Body& body : bodies_)
+    archive(body.was_reported_large, body.was_reported_soft);
 }
 
 }  // namespace limber::dynamics

@@ -58,8 +58,8 @@ class LinearLimit {
     double harmless_square = 0.0;  // of its spin [rad^2/s^2]
     DisplacementMeasure measure;
     std::optional<Vector6> unit_fractions = {};  // if needed yet [s^2/rad^2]
-    bool was_told_large = false;
-    bool was_told_soft = false;
+    bool was_reported_large = false;
+    bool was_reported_soft = false;
     // The last ones that were computed.
     VectorX eta = {};
     double displacement = 0.0;           // [m]

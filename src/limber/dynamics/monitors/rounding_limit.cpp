@@ -66,17 +66,19 @@ RoundingLimit::RoundingLimit(const SystemModel& model)
 
 void RoundingLimit::check(const SystemState& state,
                           std::vector<std::string>& warnings) {
-  if (was_told_) return;
+  if (was_reported_) return;
   const Rounding rounding = find_largest_rounding(radii_, state);
   if (rounding.fraction <= kVisible) return;
-  was_told_ = true;
+  was_reported_ = true;
   warnings.push_back(fmt::format(
       "{}: deformations are off by as much, and forces of joints by that times "
       "their stiffness; move the origin nearer to the bodies",
       describe_rounding(model_, state, rounding)));
 }
 
-void RoundingLimit::exchange_memory(Archive& archive) { archive(was_told_); }
+void RoundingLimit::exchange_memory(Archive& archive) {
+  archive(was_reported_);
+}
 
 void check_rounding(const SystemModel& model, const SystemState& state) {
   const Rounding rounding =

@@ -31,7 +31,7 @@ class RoundingLimit {
  private:
   const SystemModel& model_;
   std::vector<double> radii_;  // of gyration [m]
-  bool was_told_ = false;
+  bool was_reported_ = false;
 };
 
 /// @throws InputError naming the body if its position is rounded to more than

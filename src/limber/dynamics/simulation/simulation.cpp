@@ -51,13 +51,13 @@ void simulate(const SystemModel& model, SystemState& state,
 }
 
 void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& asked, const Observer& observer,
+              const SimulationSettings& requested, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
               const Continuation& continuation, const Followed& followed,
               RunRecord& record) {
-  check_settings(model, state, asked);
-  SimulationSettings settings = asked;
-  settings.passes = choose_passes(model, asked, state.t);
+  check_settings(model, state, requested);
+  SimulationSettings settings = requested;
+  settings.passes = choose_passes(model, requested, state.t);
   const bool is_verified =
       settings.tolerance > 0.0 && settings.passes == TolerancePasses::verified;
   if (is_verified) {

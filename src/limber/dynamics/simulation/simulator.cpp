@@ -44,12 +44,13 @@ double choose_refinement(const SimulationSettings& settings) {
 
 struct Simulator::Parts {
   Parts(const SystemModel& its_model, const SystemState& start,
-        const SimulationSettings& asked)
+        const SimulationSettings& requested)
       : model(its_model),
         state(start),
-        settings(check(model, state, asked, statistics)),
+        settings(check(model, state, requested, statistics)),
         limit(model),
-        loop(model, settings, state, statistics, choose_refinement(asked), {},
+        loop(model, settings, state, statistics, choose_refinement(requested),
+             {},
              [this](const SystemState& at) {
                limit.check(at, statistics.warnings);
              }),
@@ -72,7 +73,7 @@ struct Simulator::Parts {
   // Warnings and checks at the end of a whole run.
   void judge() {
     RunRecord record;
-    loop.tell(record);
+    loop.store(record);
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
     check_energy(settings.integrator, record.energy);
   }

@@ -43,10 +43,10 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
   try {
     loop.run(state, visit, job.progress, job.continuation.keeper);
   } catch (const NumericalError&) {
-    loop.tell(job.record);
+    loop.store(job.record);
     throw;
   }
-  loop.tell(job.record);
+  loop.store(job.record);
 }
 
 // A run without steps: all motion is known in closed form.
@@ -64,7 +64,7 @@ void pass_time(const SystemModel& model, SystemState& state,
     peaks.include(now);
     if (mark.is_jump) peaks.cross_jump(now);
   }
-  peaks.tell(job.record.peaks, job.record.places, job.record.envelopes);
+  peaks.store(job.record.peaks, job.record.places, job.record.envelopes);
   for (const double t : times) {
     state.t = t;
     job.check(state);

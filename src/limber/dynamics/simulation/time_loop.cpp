@@ -230,8 +230,8 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
                     stepper_.flows());
 }
 
-void TimeLoop::tell(RunRecord& record) {
-  peaks_.tell(record.peaks, record.places, record.envelopes);
+void TimeLoop::store(RunRecord& record) {
+  peaks_.store(record.peaks, record.places, record.envelopes);
   record.energy = step_observer_.find_energy();
   record.contacts = contacts_.find_records();
   record.steps = steps_;
@@ -407,7 +407,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   if (is_look_due(state, ++statistics_.steps)) inspect(state);
   check(state);
   if (part_ == parts_) leave_breakpoint(state, visit);
-  tell_progress(state, progress);
+  report_progress(state, progress);
   if (is_refresh_due()) {
     refresh();
     if (keeper.keep) hold_checkpoint(state, keeper);
@@ -417,15 +417,15 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   if (next_ < breakpoints_.size() && pulse_.ends_here()) end_here(state);
 }
 
-void TimeLoop::tell_progress(const SystemState& state,
-                             const Progress& progress) {
+void TimeLoop::report_progress(const SystemState& state,
+                               const Progress& progress) {
   if (pulse_.is_due()) pulse_.report(find_fraction(state.t), progress);
 }
 
 // After a part of a step, or an attempt that must be repeated.
 void TimeLoop::check_stop_within_step(const SystemState& state,
                                       const Progress& progress) {
-  tell_progress(state, progress);
+  report_progress(state, progress);
   if (pulse_.ends_within_step()) end_here(state);
 }
 

@@ -82,7 +82,7 @@ class TimeLoop {
 
   /// Adds the results of monitoring all steps so far: peaks, energy, contacts
   /// and warnings.
-  void tell(RunRecord& record);
+  void store(RunRecord& record);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -104,7 +104,7 @@ class TimeLoop {
   void visit_output(const SystemState& state, const Losses& losses,
                     const Visit& visit);
   void take_planned_step(SystemState& state, const Progress& progress);
-  void tell_progress(const SystemState& state, const Progress& progress);
+  void report_progress(const SystemState& state, const Progress& progress);
   void check_stop_within_step(const SystemState& state,
                               const Progress& progress);
   [[noreturn]] void end_here(const SystemState& state) const;

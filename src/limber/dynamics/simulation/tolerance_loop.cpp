@@ -279,7 +279,7 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
                       const Followed& followed, RunRecord& record) {
   ToleranceLoop passes(model, state, settings, progress, statistics,
                        continuation, followed, record);
-  const auto tell = [&] {
+  const auto store = [&] {
     if (!observer) return;
     for (std::size_t i = 0; i < passes.record().states.size(); ++i) {
       observer(passes.record().states[i], passes.record().balances[i]);
@@ -288,10 +288,10 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
   try {
     passes.run(state);
   } catch (const NumericalError&) {
-    tell();
+    store();
     throw;
   }
-  tell();
+  store();
 }
 
 }  // namespace limber::dynamics

@@ -22,7 +22,7 @@ constexpr double kMostFraction = 0.03;  // of R_e [-]
 constexpr double kMostFlatFraction = 0.01;
 // Of the above: where shapes are meant to touch exactly [-].
 constexpr double kRounding = 1e-8;
-constexpr std::size_t kMostTold = 10;
+constexpr std::size_t kMostReported = 10;
 
 joints::PairTouch find_touch(const PlacedPair& placed,
                              const dynamics::SystemModel& model,
@@ -48,9 +48,9 @@ std::string refuse_enclosed(const PlacedPair& pair) {
       pair.name);
 }
 
-std::string tell(const PlacedPair& placed, double depth,
-                 const dynamics::SystemModel& model,
-                 const joints::PairBodies& bodies) {
+std::string report_overlap(const PlacedPair& placed, double depth,
+                           const dynamics::SystemModel& model,
+                           const joints::PairBodies& bodies) {
   const dynamics::Pair& pair = model.pairs[index(placed.pair)];
   const std::vector<double> memory(pair.law->memory_size(), 0.0);
   joints::PairResponse scratch = dynamics::make_response(model, pair);
@@ -89,15 +89,16 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
     const bool overlaps = overlap.depth > kRounding * pair.most_overlap;
     if (!overlaps && !overlap.is_enclosed) continue;
     if (overlaps && overlap.depth <= pair.most_overlap) {
-      notices.push_back(tell(pair, overlap.depth, model, motion.bodies()));
-    } else if (++count <= kMostTold) {
+      notices.push_back(
+          report_overlap(pair, overlap.depth, model, motion.bodies()));
+    } else if (++count <= kMostReported) {
       problems.push_back(overlaps ? refuse(pair, overlap)
                                   : refuse_enclosed(pair));
     }
   }
-  if (count > kMostTold) {
+  if (count > kMostReported) {
     problems.push_back(
-        fmt::format("{} more contacts overlap", count - kMostTold));
+        fmt::format("{} more contacts overlap", count - kMostReported));
   }
   if (!problems.empty()) throw InputError(problems);
   return notices;

@@ -90,9 +90,9 @@ std::vector<std::string> list_contacts(const std::vector<ContactSpec>& contacts,
 
 /// A notice of the contacts without a value, if there are any.
 template <typename Leaves>
-void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
-                  const char* key, const char* means,
-                  std::vector<std::string>& notices) {
+void report_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
+                    const char* key, const char* means,
+                    std::vector<std::string>& notices) {
   const auto numbers = list_contacts(contacts, leaves_out);
   if (numbers.empty()) return;
   notices.push_back(
@@ -102,7 +102,7 @@ void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
 }
 
 /// A notice of restitutions that no damping gives.
-void tell_least_restitution(Scenario& scenario) {
+void report_least_restitution(Scenario& scenario) {
   const auto numbers =
       list_contacts(scenario.contacts, [](const ContactOptions& o) {
         return o.restitution.value_or(1.0) < kLeastRestitution;
@@ -131,15 +131,15 @@ void read_contacts(TomlTable& root, Scenario& scenario) {
     scenario.contacts.push_back(read_contact(element, otherwise));
     element.finish();
   }
-  tell_default(
+  report_default(
       scenario.contacts,
       [](const ContactOptions& o) { return !o.friction && !o.static_friction; },
       "friction", "it slides without friction (0)", scenario.warnings);
-  tell_default(
+  report_default(
       scenario.contacts,
       [](const ContactOptions& o) { return !o.restitution && !o.damping; },
       "restitution", "it loses no energy (1)", scenario.warnings);
-  tell_least_restitution(scenario);
+  report_least_restitution(scenario);
 }
 
 }  // namespace limber::scene

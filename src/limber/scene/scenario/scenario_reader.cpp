@@ -221,11 +221,11 @@ void read_starts(TomlTable& table, const std::string& section,
 }
 
 void read_equilibrium(TomlTable& table, Scenario& scenario) {
-  const bool is_asked = table.boolean("equilibrium").value_or(false);
+  const bool is_requested = table.boolean("equilibrium").value_or(false);
   const auto method = read_name(table, "equilibrium_method",
                                 dynamics::EquilibriumMethod::newton,
                                 dynamics::parse_equilibrium_method);
-  if (!is_asked) {
+  if (!is_requested) {
     if (table.has("equilibrium_method")) {
       table.fail("'equilibrium_method' needs 'equilibrium = true'");
     }

@@ -181,12 +181,12 @@ TEST(Correlations, OfRanksAreOneForAnyMonotonicLaw) {
   const auto rising = correlate([](const Values& x) { return std::exp(x[0]); });
   EXPECT_DOUBLE_EQ(rising.rank, 1.0);
   EXPECT_LT(rising.linear, 0.9);
-  EXPECT_TRUE(rising.is_told());
+  EXPECT_TRUE(rising.is_significant());
   EXPECT_DOUBLE_EQ(
       correlate([](const Values& x) { return -x[0] * x[0] * x[0]; }).rank,
       -1.0);
   const auto even = correlate([](const Values& x) { return x[0] * x[0]; });
-  EXPECT_FALSE(even.is_told());
+  EXPECT_FALSE(even.is_significant());
 }
 
 // Ranks 0, 1.5, 1.5, 3 and 0.5, 0.5, 2, 3: covariance 3.75, variances 4.5 each.
