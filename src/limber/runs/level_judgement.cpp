@@ -138,9 +138,9 @@ std::vector<dynamics::Fidelity> find_requested(
 std::string find_doubt(const std::vector<dynamics::ContactRecord>& contacts) {
   if (contacts.empty()) return "";
   return fmt::format(
-      "cannot tell how far a run is from these figures: {} contacts in the run "
-      "of rigid links, from {} at {:.4g} s on, whose forces flexible links "
-      "change; judge by the levels that 'limber run' reports",
+      "these figures may not apply: the run of rigid links has {} contacts, "
+      "the first {} at {:.4g} s, and flexible links change their forces; use "
+      "the levels that 'limber run' reports",
       contacts.size(), contacts.front().pair, contacts.front().time);
 }
 

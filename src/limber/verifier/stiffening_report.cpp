@@ -65,11 +65,11 @@ std::string describe_floor(const StiffeningReport& report, std::size_t floor) {
                   list_relative(report)[floor], report.factors[floor]);
   const double fraction = find_step_fraction(report, floor);
   if (fraction == 0.0)
-    return text + "--refine 1 tells whether it is the step's\n";
+    return text + "--refine 1 shows whether it is due to the step\n";
   text += fmt::format("halving the step divides it by {:.2f}, so ", fraction);
   return text + (fraction > kFallsWithStep
-                     ? "it is the step's\n"
-                     : "it is round-off's or Simbody's, not the step's\n");
+                     ? "it is due to the step\n"
+                     : "it is due to round-off or Simbody, not to the step\n");
 }
 
 std::string describe(const StiffeningReport& report) {

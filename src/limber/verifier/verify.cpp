@@ -109,8 +109,8 @@ void verify(const VerifyOptions& options) {
   apply(options, scene.scenario.settings);
   if (options.refine > 0 && scene.scenario.settings.tolerance > 0.0) {
     throw InputError(
-        "--refine halves steps, and the scenario has a tolerance in place of "
-        "them; give --step, too");
+        "--refine halves steps, and the scenario has a tolerance instead of a "
+        "step; also give --step");
   }
   if (options.refine > 0 && !options.stiffen.empty()) {
     throw InputError(

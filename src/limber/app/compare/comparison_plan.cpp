@@ -134,10 +134,10 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
   const double shortest = find_shortest_step(axes, scene);
   if (reference.integrator && !reference.step &&
       !dynamics::traits_of(*reference.integrator).is_adaptive) {
-    problems.push_back(fmt::format(
-        "--reference-integrator: {} cannot step to the scenario's tolerance; "
-        "give --reference-step, too",
-        to_string(*reference.integrator)));
+    problems.push_back(
+        fmt::format("--reference-integrator: {} cannot step to the scenario's "
+                    "tolerance; also give --reference-step",
+                    to_string(*reference.integrator)));
   }
   if (reference.step.value_or(0.0) > shortest) {
     problems.push_back(fmt::format(

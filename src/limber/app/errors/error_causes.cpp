@@ -170,7 +170,7 @@ class Finder {
         std::minmax_element(levels.begin(), levels.end());
     if (*highest == Fidelity::full) {
       if (*lowest == Fidelity::full) return;
-      found_.unknown.emplace_back("level of links beside those at full");
+      found_.unknown.emplace_back("level of links other than those at full");
       return;
     }
     const std::optional<Fidelity> finer =

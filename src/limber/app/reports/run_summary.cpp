@@ -133,7 +133,7 @@ void read_json(const fs::path& file, RunSummary& run) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
     throw InputError(
-        fmt::format("'{}' is damaged: it is not complete JSON", file.string()));
+        fmt::format("'{}' is damaged: its JSON is incomplete", file.string()));
   }
   try {
     if (!json.contains("steps")) {

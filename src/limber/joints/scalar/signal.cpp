@@ -346,8 +346,8 @@ void check(const Signal& signal) {
   require_of_signal(
       find_inputs(signal).empty() ||
           (signal.shaper.size() == 1 && signal.shaper[0].delay == 0.0),
-      "it follows an input and has a shaper, which would need what the "
-      "input was before; shape it in the controller that writes the input");
+      "it follows an input and has a shaper, which would need past values of "
+      "the input; shape it in the controller that writes the input");
 }
 
 std::vector<Impulse> make_shaper(ShaperKind kind, double frequency,

@@ -121,10 +121,11 @@ class Checker {
 
   void check_flexible_place(const std::string& who, const Place& place) {
     if (!place.point && (place.nodes || !place.interface.empty())) return;
-    problems_.add(0, fmt::format("{}: link '{}' is flexible; say where by "
-                                 "'interface', 'group', 'node', 'nearest', "
-                                 "'box', 'plane' or 'cylinder'",
-                                 who, place.link));
+    problems_.add(
+        0, fmt::format(
+               "{}: link '{}' is flexible; select the location by 'interface', "
+               "'group', 'node', 'nearest', 'box', 'plane' or 'cylinder'",
+               who, place.link));
   }
 
   void check_probe(const std::string& who, const CouplerProbeSpec& probe) {

@@ -29,12 +29,12 @@ std::set<std::size_t> find_surface(const ReducedBody& body) {
     if (modes.on_surface[i] != 0) rows.insert(modes.rows[i]);
   }
   if (rows.size() < body.mesh_boundary_nodes) {
-    throw InputError(fmt::format(
-        "its body keeps {} of the {} nodes of its surface, and the largest "
-        "stress may be at the others; keep them by rows=\"boundary\" (or "
-        "'limber reduce --rows boundary'), or say where by 'group', 'node', "
-        "'nearest', ...",
-        rows.size(), body.mesh_boundary_nodes));
+    throw InputError(
+        fmt::format("its body keeps {} of the {} nodes of its surface, and the "
+                    "largest stress may be at the others; keep them by "
+                    "rows=\"boundary\" (or 'limber reduce --rows boundary'), "
+                    "or select the location by 'group', 'node', 'nearest', ...",
+                    rows.size(), body.mesh_boundary_nodes));
   }
   return rows;
 }

@@ -111,7 +111,7 @@ StressProbeSpec read_stress_probe(TomlTable& table, StressQuantity quantity) {
     if (!table.has(key)) continue;
     table.skip(key);
     table.fail(key,
-               "is not for stress, which is that at a node, in the link's "
+               "does not apply to stress, which is at a node, in the link's "
                "axes; leave it out");
   }
   SectionSelection section;
@@ -188,7 +188,7 @@ LinkStart read_link_start(TomlTable& table,
   const toml::table* modes = table.table("modes");
   if (modes == nullptr) return start;
   if (table.has("displacement") || table.has("velocity")) {
-    table.fail("has 'modes' and nodal fields; keep one of the two ways");
+    table.fail("has 'modes' and nodal fields; give only one of the two");
   }
   TomlTable values(*modes, "initial.links modes", table.problems());
   start.eta = values.number_or_numbers("position");

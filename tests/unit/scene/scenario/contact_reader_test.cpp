@@ -143,7 +143,7 @@ TEST(ContactReader, TellsEveryProblemOfAnObstacle) {
   EXPECT_THAT(error_of(obstacle("shape='cone'\nradius=1\n")),
               HasSubstr("length"));
   EXPECT_THAT(error_of(obstacle("shape='sphere'\nradius=1\nradii=[1,1,1]\n")),
-              HasSubstr("has no meaning for a sphere"));
+              HasSubstr("does not apply to a sphere"));
   EXPECT_THAT(error_of(obstacle("shape='box'\nsize=[1,0,1]\n")),
               HasSubstr("size: expected three numbers > 0"));
   EXPECT_THAT(error_of(obstacle("shape='cylinder'\n")),
@@ -151,9 +151,9 @@ TEST(ContactReader, TellsEveryProblemOfAnObstacle) {
   EXPECT_THAT(
       error_of(obstacle("shape='plane'\nnormal=[0,0,1]\norientation_rpy="
                         "[0,0,1]\n")),
-      HasSubstr("orientation_rpy: has no meaning for a plane; leave it out"));
+      HasSubstr("orientation_rpy: does not apply to a plane; leave it out"));
   EXPECT_THAT(error_of(obstacle("shape='sphere'\nradius=1\nsize=[1,1,1]\n")),
-              HasSubstr("size: has no meaning for a sphere"));
+              HasSubstr("size: does not apply to a sphere"));
   EXPECT_THAT(error_of("[[obstacle]]\nname='o'\nshape='sphere'\nradius=1\n"),
               HasSubstr("needs 'position'"));
 }
