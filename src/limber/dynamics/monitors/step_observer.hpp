@@ -65,7 +65,7 @@ class StepObserver {
 
   const SystemModel& model_;
   EnergyObserver energy_observer_;
-  DeflectionObserver holds_;
+  DeflectionObserver deflection_;
   EffortLimitObserver limits_;
   SystemTerms terms_;
   long stride_;
