@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies: many runs of a scenario with other values, in one table."""
+"""Studies: many runs of a scenario with varied values, in one table."""
 
 import collections
 import concurrent.futures
@@ -13,7 +13,7 @@ from .errors import InputError, Interrupted
 from .toml import to_document, to_toml
 
 Effect = collections.namedtuple("Effect", "main total")
-Effect.__doc__ = "Shares of a response's variance that a factor makes."
+Effect.__doc__ = "Fractions of a response's variance that a factor causes."
 
 Row = collections.namedtuple(
     "Row", "run factors responses error warnings seconds seconds_ready")
