@@ -32,7 +32,7 @@ HeldDirections find_held(JointKind kind, const Vector3& axis) {
       return {Matrix3::Zero(), Matrix3::Zero()};
     case JointKind::ball:
       return {all, Matrix3::Zero()};
-    case JointKind::universal:  // constrains a rotation that turns with M
+    case JointKind::universal:  // constrains a rotation that rotates with M
     case JointKind::fixed:
       break;
   }

@@ -33,7 +33,8 @@ Vector3 find_centre(const fem::Surface& surface) {
 }
 
 /// Of corners by solution, of the points between them as their mean. Hertz's
-/// share is in what solid elements answer, not in beams' and shells' answer.
+/// contribution is in the response of solid elements, not in that of beams and
+/// shells.
 VectorX find_residual(const BodyWithSurface& body, const ReducedBasis& basis,
                       const fem::Surface& surface,
                       std::vector<ContactPatch> patches,

@@ -42,7 +42,7 @@ std::vector<std::string> list_words(const std::vector<Candidate>& candidates) {
 }
 
 /// What is wrong with a command line: the first option or command in it that
-/// is not known, with the nearest that is, or else what the parser says.
+/// is not known, with the nearest that is, or else the parser's message.
 std::string explain(const CLI::App& app, const CLI::App& command,
                     const CLI::ParseError& error) {
   const std::vector<std::string> unknown = app.remaining(true);

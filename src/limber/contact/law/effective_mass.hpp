@@ -24,7 +24,7 @@ class FreeBody {
  public:
   /// @param mass > 0; infinity of the world [kg]
   /// @param inertia_B about Bo, the centre of mass; zero of a body that its
-  /// contacts do not turn [kg m^2]
+  /// contacts do not rotate [kg m^2]
   FreeBody(double mass, const Matrix3& inertia_B);
 
   /// g . M^-1 g of a force and a moment about Bo [N^2/kg]

@@ -14,7 +14,7 @@ bool is_new(const FrictionMemory& memory) {
   return memory.rotation_B.isZero(0.0);
 }
 
-// The mean of both bodies' turns since then.
+// The mean of both bodies' rotations since then.
 Matrix3 find_mean_rotation(const FrictionMemory& memory,
                            const BodyRotations& rotations) {
   return 0.5 * (rotations.R_WA * to_matrix(memory.rotation_A).transpose() +

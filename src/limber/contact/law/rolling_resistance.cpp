@@ -10,7 +10,7 @@ namespace limber::contact {
 
 using Vector2 = Eigen::Vector2d;
 
-// Of the critical damping of bodies that turn about their centres.
+// Of the critical damping of bodies that rotate about their centres.
 constexpr double kDamping = 0.3;
 
 RollingResponse resist_rolling(double arm, const RollingSpring& before,

@@ -42,7 +42,7 @@ struct RollingResponse {
 /// largest: a spring that rolls on beyond it, and a damper of 0.3 of
 /// the critical damping, together within it.
 ///
-/// Equation   T* = T_0 min(1, k_r / k_r0) + k_r turn, T = T* min(1, b f /
+/// Equation   T* = T_0 min(1, k_r / k_r0) + k_r rotation, T = T* min(1, b f /
 ///            |T*|), moment = -T - c rate within b f; k_r = 3 k b^2, that of a
 ///            strip of springs 6 b wide, which b f tilts until one edge is free
 /// Source     [@iwashita1998; @jiang2005]; damping [@ai2011]; return mapping

@@ -21,7 +21,7 @@ struct ContactSide {
   std::optional<SurfaceMaterial> material;  ///< none: rigid
   double mass = 0.0;  ///< of the body; infinity of the world [kg]
   /// Of the body, about Bo, its centre of mass; zero of the world, and of
-  /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
+  /// bodies that no contact rotates, such as a sphere at Bo [kg m^2].
   Matrix3 inertia_B = Matrix3::Zero();
   /// Convex parts of a rigid mesh or of a flexible surface with slices, in its
   /// frame; none of others.
@@ -47,7 +47,7 @@ class OpposedMass {
   static constexpr std::size_t kNumbers = 144;
 
   /// @throws InputError for a restitution or rolling friction of a body that
-  /// may turn without inertia.
+  /// may rotate without inertia.
   OpposedMass(const ContactSide& A, const ContactSide& B,
               const ContactParameters& parameters);
 

@@ -146,8 +146,8 @@ double PatchLaw::find_radius(const Patch& patch,
                    : find_spin_radius(patch.spread_W, normal_W);
 }
 
-// In two directions, and the turn times r_e. Of a flat the elastic load counts
-// only by the normal force.
+// In two directions, and the rotation times r_e. Of a flat the elastic load
+// counts only by the normal force.
 void PatchLaw::add_sliding(const Input& in, const PatchWrench& pressed,
                            const FrictionFrame& frame, ShellMemory& next,
                            PatchResponse& out) const {

@@ -16,7 +16,7 @@ Matrix3 rotate(const Matrix3& R_WB, const Matrix3& in_B) {
 }
 
 // The force where W continues along the normal as d^(p + 1), p of its present
-// energy, load and stiffness, and gives way by the layers; or nothing.
+// energy, load and stiffness, and deflects by the layers; or nothing.
 std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
   constexpr int kHalvings = 40;
   const Vector3 g = patch.gradient_W.head<3>();
@@ -59,7 +59,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
   constexpr double kRise = 1e-3;
   const Matrix3 of_A = rotate(bodies.A.R_WB, R_A_);
   const Matrix3 R = of_A + rotate(bodies.B.R_WB, R_B_);
-  // What the places' own digits can tell apart [m].
+  // The resolution of the positions' own digits [m].
   const double floor = 4.0 * std::numeric_limits<double>::epsilon() *
                        (bodies.B.p_WB - bodies.A.p_WB).norm();
   Vector3 f = Vector3::Zero();
@@ -96,7 +96,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
     }
     // At the end of the change, to its second order.
     patch.energy = energy + 0.5 * (gradient + last).dot(change);
-    // Where A's own layer lets it give way, as B's does.
+    // Where A's own layer deflects, as B's does.
     patch.centre_W -= of_A * f;
     const Eigen::Matrix<double, 6, 3> coupling = patch.hessian_W.leftCols<3>();
     patch.gradient_W += coupling * change;

@@ -12,9 +12,9 @@ namespace limber::contact {
 namespace {
 
 constexpr std::size_t kMostPlanes = 96;
-constexpr double kSameNormal = 1e-3;  // turn of facets in one plane [rad]
-constexpr double kWider = 1.25;       // of the turn, where planes are too many
-constexpr double kMargin = 1e-3;      // of planes behind it, of its size [-]
+constexpr double kSameNormal = 1e-3;  // angle between facets in one plane [rad]
+constexpr double kWider = 1.25;   // of the angle, if there are too many planes
+constexpr double kMargin = 1e-3;  // of planes behind it, of its size [-]
 
 /// Normals, those with most area first.
 std::vector<Vector3> list_normals(const std::vector<SurfaceFacet>& facets,

@@ -30,7 +30,7 @@ std::map<std::pair<int, int>, std::size_t> list_edges(
   return owners;
 }
 
-// Cosine of the turn between two facets.
+// Cosine of the angle between two facets.
 double find_cosine(const SurfaceFacet& a, const SurfaceFacet& b) {
   return a.area.normalized().dot(b.area.normalized());
 }

@@ -14,7 +14,7 @@ struct SurfaceFacet {
   std::array<int, 3> nodes = {};
   Vector3 area = Vector3::Zero();    ///< outward [m^2]
   Vector3 middle = Vector3::Zero();  ///< [m]
-  /// Facets that join each other by turns of less than 20 degrees have the
+  /// Facets that join each other at angles of less than 20 degrees have the
   /// same number.
   int patch = 0;
 };

@@ -19,8 +19,9 @@ Matrix3 find_squares(const Vector3& radii, const Matrix3& R) {
   return R * radii.cwiseAbs2().asDiagonal() * R.transpose();
 }
 
-// The normal by which two ellipsoids touch that are scaled alike [@perram1985]:
-// of the largest a (1 - a) r . [(1 - a) A + a B]^-1 r, concave in a.
+// The normal of contact of two ellipsoids that are scaled equally
+// [@perram1985]: of the largest a (1 - a) r . [(1 - a) A + a B]^-1 r, concave
+// in a.
 Vector3 find_way_of_scaled(const Matrix3& A, const Matrix3& B,
                            const Vector3& r) {
   constexpr double kGolden = 0.6180339887498949;

@@ -43,7 +43,8 @@ class LinearLimit {
 
   /// The end of a step. Adds a warning, once per body, if its deformation
   /// exceeds 10 % of its longest edge, or its spin the critical speed of linear
-  /// elasticity; at level nonlinear if an interface turns by more than 0.4 rad.
+  /// elasticity; at level nonlinear if an interface rotates by more than 0.4
+  /// rad.
   /// @throws NumericalError naming the body, the dominant mode and the time if
   /// the deformation exceeds 100 %, which is not a valid result.
   void check(const SystemState& state, std::vector<std::string>& warnings);

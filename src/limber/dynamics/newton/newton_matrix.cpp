@@ -64,7 +64,7 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   unknowns_.resize(index(plan_.rows));
 }
 
-// All but what add_end() knows.
+// All except what add_end() adds.
 void NewtonMatrix::finish_graph(const SystemModel& model) {
   graph_.links_of_body.resize(ends_of_body_.size());
   for (const End& end : ends_) {

@@ -239,7 +239,7 @@ class FileSetReader {
   }
 
   /// The file of a kind, null if there is none. Of several that beside the
-  /// matrices, whose name begins alike.
+  /// matrices, whose name has the same beginning.
   const Path* find_single(ModelFileKind kind) {
     const std::vector<Path>& all = files_[kind];
     if (all.empty()) return nullptr;

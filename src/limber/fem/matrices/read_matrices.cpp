@@ -83,7 +83,7 @@ class ModelMaker {
   }
 
   void label_matrices() {
-    // Files without a head do not say rows beyond their last entry.
+    // Files without a head do not state rows beyond their last entry.
     const Eigen::Index most =
         std::max(K_->matrix.entries.rows(), M_->matrix.entries.rows());
     for (SourceMatrix* source : {K_, M_}) {

@@ -16,7 +16,7 @@ namespace limber::fem {
 ///            sum w_n u_n and those of (x - p) x u are sum y_n x u_n.
 /// Limits     w_n is zero at the corners of straight second-order triangles
 ///            and negative, -1/12, at those of quadrangles of eight nodes: the
-///            share of a load spread evenly. y_n is then not w_n (x_n - p).
+///            fraction of a load spread evenly. y_n is then not w_n (x_n - p).
 struct WeightedNodes {
   std::vector<int> nodes;  ///< sorted node indices
   VectorX weights;         ///< w, sum to one [-]

@@ -210,7 +210,7 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
         "eigenmodes: {} of {} converged in {} restarts; request fewer.{}",
         converged, count, kRestarts, inverse.conditioning()));
   if (inverse.matrices().is_scalar_mass()) return solver.eigenvectors();
-  // The recursion does not see what has no mass and lets its roundoff grow
+  // The recursion does not see massless motion and its round-off grows
   // (Nour-Omid, Parlett, Ericsson and Jensen, Math. Comp. 48, 1987).
   return inverse.solve_shifted(
       multiply_mass(inverse.matrices().M_s, solver.eigenvectors()));

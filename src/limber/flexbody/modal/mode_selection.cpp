@@ -37,7 +37,7 @@ std::vector<int> find_order(const VectorX& fractions, SelectionOrder order) {
   return modes;
 }
 
-/// Roundoff of a sum of m shares relative to its total.
+/// Roundoff of a sum of m fractions relative to its total.
 double roundoff(Eigen::Index count) {
   return 4e-16 * static_cast<double>(count + 1);
 }

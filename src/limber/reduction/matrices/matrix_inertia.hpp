@@ -35,7 +35,7 @@ struct MatrixInertia {
 /// Equation   sum_p m_p [X_p Phi_p]^T [X_p Phi_p] = [X Phi]^T M [X Phi], m_p >=
 ///            0, in the least square; S1_k = sum m_p x_p u_pk^T, S2_kl = sum
 ///            m_p u_pk u_pl^T. J0, P and X_r^T M Phi are those of M
-/// Limits     fits with a residual below 0.02 are taken; of a body that turns
+/// Limits     fits with a residual below 0.02 are taken; of a body that rotates
 ///            nowhere (clamped) S1 and S2 do not matter
 /// @param Phi rows x m, zero on rows that are held @param fields 6N x m
 [[nodiscard]] MatrixInertia find_matrix_inertia(const MatrixPart& part,

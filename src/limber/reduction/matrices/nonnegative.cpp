@@ -41,7 +41,7 @@ class PassiveColumns {
     return true;
   }
 
-  /// Only those that `keeps` says.
+  /// Only those that `keeps` selects.
   template <typename Keeps>
   void reduce(const Keeps& keeps) {
     std::vector<Eigen::Index> kept;

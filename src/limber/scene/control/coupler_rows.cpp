@@ -176,7 +176,7 @@ VectorRows find_vector_rows(const CouplerProbeSpec& spec,
   }
 }
 
-/// Turned from F to the probe's axes, which turn with the motion.
+/// Rotated from F to the probe's axes, which rotate with the motion.
 CouplerRows rotate(ProbeAxes axes, const dynamics::CouplerReading& reading,
                    const VectorRows& in_F, const LinkRows& link,
                    const Matrix3X& turn_F) {

@@ -23,7 +23,7 @@ namespace {
 
 using Parts = std::vector<std::string>;
 
-/// Elements under <robot>, and the attribute that tells them apart.
+/// Elements under <robot>, and the attribute that distinguishes them.
 constexpr std::array<std::pair<const char*, const char*>, 11> kKinds = {{
     {"link", "name"},
     {"joint", "name"},

@@ -46,7 +46,7 @@ ContactOptions merge(const ContactOptions& own,
   fill(options.rolling_friction, otherwise.rolling_friction);
   fill(options.radius, otherwise.radius);
   fill(options.stiffness, otherwise.stiffness);
-  // Both say how much energy is lost.
+  // Both determine how much energy is lost.
   if (!own.damping) fill(options.restitution, otherwise.restitution);
   if (!own.restitution) fill(options.damping, otherwise.damping);
   return options;

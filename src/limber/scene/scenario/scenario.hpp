@@ -55,7 +55,7 @@ struct PointProbeSpec {
   Place where;
   Quantity quantity = Quantity::displacement;
   /// The motion is that in the frame of this place, in its link's axes, which
-  /// turn with it; not of `deformation`.
+  /// rotate with it; not of `deformation`.
   std::optional<Place> relative_to;
 };
 
