@@ -17,7 +17,8 @@ namespace limber::joints {
 /// A joint: stiffness in its constrained directions, and scalar laws along its
 /// free coordinates.
 ///
-/// Equation   the sum of the wrench of `constraint` and of force * gradient of each
+/// Equation   the sum of the wrench of `constraint` and of force * gradient of
+/// each
 ///            element, with the coordinates of AxisCoordinate
 class Joint : public WithoutTriggers {
  public:
@@ -49,8 +50,8 @@ class Joint : public WithoutTriggers {
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
                                          const EvaluationTime& now) const;
-  /// The sum of the constraint's wrench at the mean and of each element's response
-  /// over the step.
+  /// The sum of the constraint's wrench at the mean and of each element's
+  /// response over the step.
   /// @throws NumericalError as AxisCoordinate does.
   [[nodiscard]] CouplerResponse evaluate_over_step(
       const MotionStep& motion, const CouplerMemory& memory,

@@ -29,7 +29,7 @@ struct BodyStep {
   Vector3 v_W;       ///< [m/s]
   Vector3 w_W;       ///< [rad/s]
   Matrix3 R_WB;      ///< mean of both ends, not a rotation [-]
-  Matrix3 dual_R;    ///< its inverse transposed, R_0 (I + skew(rotation) / 2) [-]
+  Matrix3 dual_R;  ///< its inverse transposed, R_0 (I + skew(rotation) / 2) [-]
   /// The rotation halfway between both ends [-].
   Matrix3 middle_R_WB;
 };
