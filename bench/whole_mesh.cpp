@@ -41,7 +41,7 @@ void step(benchmark::State& state, const std::string& file,
   dynamics::SystemState now = make_state(model);
   now.bodies[0].w_WB_B = Vector3::UnitX();
   place_nodes(model, {}, {}, now);
-  const double h = dynamics::kStableShare * find_stable_step(model, now);
+  const double h = dynamics::kStableFraction * find_stable_step(model, now);
   dynamics::CentralDifferences scheme(model);
   scheme.start(now, h);
   for (auto _ : state) scheme.step(now, h, now.t + h);

@@ -13,7 +13,7 @@ namespace limber::bench {
 
 /// One scene of the sweep: beams of a square section end to end on hinges,
 /// free in space, that turn as one and are struck at one end by a half sine.
-/// They are of aluminium, but for the density of every other one.
+/// They are of aluminium, except for the density of every other one.
 struct Cell {
   int bodies = 3;
   double length = 1.0;      ///< of each [m]

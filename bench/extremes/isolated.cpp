@@ -18,8 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What waits for nothing gets this share of a core, even of a busy machine.
-constexpr double kLeastShare = 0.1;
+// What waits for nothing gets this fraction of a core, even of a busy machine.
+constexpr double kLeastFraction = 0.1;
 
 // The first byte of a complete result.
 constexpr char kWhole = '+';
@@ -118,7 +118,7 @@ std::vector<Ending> do_isolated(
       Child& child = children[i];
       const bool is_closed = polls[i].revents != 0 && read_some(child);
       const bool is_over_time =
-          !is_closed && kLeastShare * seconds_of(child) > limit;
+          !is_closed && kLeastFraction * seconds_of(child) > limit;
       if (!is_closed && !is_over_time) continue;
       endings[child.index] = finish(child, is_over_time);
       children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));

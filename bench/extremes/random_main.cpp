@@ -121,12 +121,13 @@ void write_list(const std::string& path, const std::vector<unsigned>& seeds,
       continue;
     }
     const Answer answer = read_answer(ending.answer);
-    const dynamics::SimulationSettings asked =
+    const dynamics::SimulationSettings requested =
         testing::draw_scene(seeds[i]).settings;
     list << fmt::format("{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\n",
                         seeds[i], ending.seconds, kEndings[answer.kind],
                         answer.steps, answer.halved, answer.solves, answer.text,
-                        dynamics::to_string(asked.integrator), asked.step);
+                        dynamics::to_string(requested.integrator),
+                        requested.step);
   }
 }
 

@@ -30,8 +30,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MOST_RISE = 0.005  # of the energy
 MOST_SECONDS = 180  # of processor time
 # Of warnings: too deep for Hertz's law, and energy that does not balance.
-DEEP = "do not trust its force and energy"
-UNBALANCED = "that nothing accounts for"
+DEEP = "its force and energy are not reliable"
+UNBALANCED = "energy error"
 LEVELS = ("rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full")
 KNOWN = ("good", "refused", "too deep")
 KINDS = ("sphere", "box", "cylinder", "capsule", "cube", "ball", "bar", "plane")

@@ -53,7 +53,7 @@ MatrixX respond(const Problem& problem, const flexbody::ReducedBasis& basis,
       .eta;
 }
 
-/// Share of the load that acts at each time.
+/// Fraction of the load that acts at each time.
 VectorX find_history(Growth growth, const std::vector<double>& times) {
   VectorX g = VectorX::Ones(std::ssize(times));
   if (growth == Growth::step) return g;

@@ -45,14 +45,14 @@ class Search {
 // power of it.
 Rung meet(const Search& search, Rung coarse, Rung fine, double error) {
   for (int i = 0; i < kSearches && fine.error < (1.0 - kEqual) * error; ++i) {
-    double share = 0.5;
+    double fraction = 0.5;
     if (std::isfinite(coarse.error) && fine.error > 0.0) {
-      share =
+      fraction =
           std::log(error / fine.error) / std::log(coarse.error / fine.error);
     }
-    share = std::clamp(share, 0.05, 0.95);
+    fraction = std::clamp(fraction, 0.05, 0.95);
     Rung next =
-        search.take(fine.step * std::pow(coarse.step / fine.step, share));
+        search.take(fine.step * std::pow(coarse.step / fine.step, fraction));
     (next.error <= error ? fine : coarse) = std::move(next);
   }
   return fine;

@@ -145,19 +145,19 @@ void write_accuracy(Page& page, const std::vector<SceneCases>& scenes) {
   double lowest = INFINITY;
   double highest = 0.0;
   for_each_case(scenes, [&](const SceneCases& scene, const Case& one) {
-    const double share = one.error / one.tolerance;
+    const double fraction = one.error / one.tolerance;
     const double verified = one.verified_error / one.tolerance;
     const double of_estimate =
         one.verified_error / one.verified.statistics.estimated_error;
     ++cases;
-    within_one += share <= 1.0 ? 1 : 0;
-    within_ten += share <= kWithin ? 1 : 0;
+    within_one += fraction <= 1.0 ? 1 : 0;
+    within_ten += fraction <= kWithin ? 1 : 0;
     verified_within_one += verified <= 1.0 ? 1 : 0;
     lowest = std::min(lowest, of_estimate);
     highest = std::max(highest, of_estimate);
     rows.push_back(
         {scene.name, fmt::format("{:g}", one.tolerance),
-         fmt::format("{:.2g}", share),
+         fmt::format("{:.2g}", fraction),
          fmt::format("{}", one.run.statistics.steps),
          fmt::format("{}", one.run.statistics.rejected_steps),
          fmt::format("{}", one.run.statistics.newton_iterations),

@@ -91,21 +91,21 @@ void write_all(const std::string& folder, const std::string& only) {
 
 void add_verdict_claim(Context& context, const std::string& scene,
                        const Verdict& verdict) {
-  std::string said;
+  std::string reported;
   for (const LinkVerdict& link : verdict.links) {
-    said += fmt::format("{}{}: {}{}, by `full` {}", said.empty() ? "" : "; ",
-                        link.link, to_string(link.advised),
-                        link.is_beyond_linear ? " and no level is right" : "",
-                        link.needed_by_full
-                            ? std::string(to_string(*link.needed_by_full))
+    reported += fmt::format(
+        "{}{}: {}{}, by `full` {}", reported.empty() ? "" : "; ", link.link,
+        to_string(link.advised),
+        link.is_beyond_linear ? " and no level is right" : "",
+        link.needed_by_full ? std::string(to_string(*link.needed_by_full))
                             : "no reduced level");
-    said += fmt::format(", by `coupled` {}", to_string(link.needed));
+    reported += fmt::format(", by `coupled` {}", to_string(link.needed));
   }
   context.claims.push_back(
       {verdict.agrees_by_full(),
        fmt::format("{}: `limber advise` names the lowest level that suffices "
                    "by comparison with `full` ({}).",
-                   scene, said),
+                   scene, reported),
        verdict.agrees()
            ? "the level is right, by comparison with `coupled` in the same "
              "basis; the remaining error against `full` is that of the basis "

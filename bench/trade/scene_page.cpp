@@ -67,9 +67,9 @@ std::string to_micrometres(const std::vector<double>& values) {
 
 }  // namespace
 
-std::string to_percent(double share) {
-  return 100.0 * share < 10.0 ? fmt::format("{:.2g}", 100.0 * share)
-                              : fmt::format("{:.3g}", 100.0 * share);
+std::string to_percent(double fraction) {
+  return 100.0 * fraction < 10.0 ? fmt::format("{:.2g}", 100.0 * fraction)
+                                 : fmt::format("{:.3g}", 100.0 * fraction);
 }
 
 void write_choices(Page& page, const std::filesystem::path& folder,

@@ -18,7 +18,7 @@ struct Claim {
 };
 
 /// A percentage with two digits.
-[[nodiscard]] std::string to_percent(double share);
+[[nodiscard]] std::string to_percent(double fraction);
 
 /// Table of all runs, and `name`.png: errors over cost.
 /// @param yardstick times cheaper than this run

@@ -106,8 +106,8 @@ Point study_rate(double rate, const Context& context) {
   return point;
 }
 
-std::string to_cell(double share) {
-  return std::isfinite(share) ? to_percent(share) : "stopped";
+std::string to_cell(double fraction) {
+  return std::isfinite(fraction) ? to_percent(fraction) : "stopped";
 }
 
 void write_sweep(Page& page, const std::vector<Point>& points) {
@@ -218,7 +218,7 @@ void write(Page& page, const Context& context, const Study& study,
 /// Where `coupled` or `nonlinear` is off by more than 10 %, the advice should
 /// be a level above it.
 void claim_advice(Context& context, const std::vector<Point>& points) {
-  std::string said;
+  std::string reported;
   bool is_held = true;
   for (const Point& point : points) {
     const bool is_coupled_wrong = !(point.errors[2] < 0.1);
@@ -227,14 +227,14 @@ void claim_advice(Context& context, const std::vector<Point>& points) {
                             : is_coupled_wrong ? Fidelity::nonlinear
                                                : Fidelity::rigid;
     is_held = is_held && point.advised >= needed;
-    said += fmt::format("{}{:g} rad/s {}", said.empty() ? "" : ", ", point.rate,
-                        to_string(point.advised));
+    reported += fmt::format("{}{:g} rad/s {}", reported.empty() ? "" : ", ",
+                            point.rate, to_string(point.advised));
   }
   context.claims.push_back(
       {is_held,
        fmt::format("Scene 5: spin: `limber advise` names no level that is off "
                    "by more than 10 % in deformation: {}.",
-                   said),
+                   reported),
        "its estimates are of the first order in the strain."});
 }
 

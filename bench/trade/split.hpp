@@ -10,7 +10,7 @@
 /// next finer one.
 namespace limber::bench::trade {
 
-/// Shares of the reference's deformation, root mean squares over nodes and
+/// Fractions of the reference's deformation, root mean squares over nodes and
 /// outputs [-].
 struct Split {
   /// All modes of the mesh, linear and exact in time, against the reference:
@@ -35,7 +35,7 @@ struct Split {
                                            const StepForces& forces);
 
 /// @param all respond_by_all at the outputs
-/// @param stepped null: no share of the step
+/// @param stepped null: no fraction of the step
 [[nodiscard]] Split split_error(const Outcome& reference, const MatrixX& all,
                                 const Outcome& exact, const Outcome* stepped);
 

@@ -252,8 +252,8 @@ def _to_names(inputs):
     for name in names:
         if isinstance(name, Controller):
             raise InputError(
-                f"input '{name.name}': a batch takes no law in Python, as its worlds run in "
-                "threads; compute the outputs for all worlds at once and give them to step()")
+                f"input '{name.name}': a batch does not support laws in Python, as its worlds "
+                "run in threads; compute the outputs for all worlds at once and give them to step()")
         if not isinstance(name, str):
             raise InputError(f"input {name!r}; expected the name of a [[controller]]")
     return names

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies: many runs of a scenario with other values, in one table."""
+"""Studies: many runs of a scenario with varied values, in one table."""
 
 import collections
 import concurrent.futures
@@ -13,7 +13,7 @@ from .errors import InputError, Interrupted
 from .toml import to_document, to_toml
 
 Effect = collections.namedtuple("Effect", "main total")
-Effect.__doc__ = "Shares of a response's variance that a factor makes."
+Effect.__doc__ = "Fractions of a response's variance that a factor causes."
 
 Row = collections.namedtuple(
     "Row", "run factors responses error warnings seconds seconds_ready")
@@ -120,7 +120,7 @@ class Study:
         except KeyboardInterrupt as cause:
             raise Interrupted(
                 f"interrupted after {len(file.rows)} of {self.runs} runs; the same "
-                "call goes on with the others") from cause
+                "call continues with the others") from cause
         finally:
             self._plan.stop()
             if own is not None:
@@ -129,7 +129,7 @@ class Study:
         raise RuntimeError(
             f"{len(lost)} of {self.runs} runs were lost by the executor {_ATTEMPTS} "
             f"times, run {run} first: {type(error).__name__}: {error}. The same call "
-            "goes on with them") from error
+            "continues with them") from error
 
     def _attempt(self, executor, attempt, runs, file, progress):
         """Makes ``runs``. Returns those that the executor lost, {run: error}."""

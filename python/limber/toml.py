@@ -21,7 +21,7 @@ def to_toml(value):
     if isinstance(value, numbers.Real):
         return _to_float(float(value))
     if isinstance(value, str):
-        # JSON's escapes are TOML's, but for DEL.
+        # JSON's escapes are TOML's, except for DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(to_toml(one) for one in value) + "]"
@@ -31,7 +31,7 @@ def to_toml(value):
     if hasattr(value, "__fspath__"):
         return to_toml(value.__fspath__())
     raise InputError(
-        f"a {type(value).__name__} is no value of a key; expected a number, text, "
+        f"a {type(value).__name__} is not a value of a key; expected a number, text, "
         "truth value, list or dictionary")
 
 
@@ -118,7 +118,7 @@ _PART = r'(?:"([^"]+)"|([^."]+))'
 def _split(path):
     """Parts of a path; those with dots are in double quotes. KeyError for another text."""
     if not re.fullmatch(rf"{_PART}(?:\.{_PART})*", path):
-        raise KeyError(f"'{path}' is no path of a key, such as load.strike.force.2")
+        raise KeyError(f"'{path}' is not a path of a key, such as load.strike.force.2")
     return [quoted or plain for quoted, plain in re.findall(_PART, path)]
 
 

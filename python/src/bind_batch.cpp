@@ -45,8 +45,8 @@ class SharedBatch {
     explicit Turn(std::atomic<bool>& is_busy) : is_busy_(is_busy) {
       if (!is_busy_.exchange(true)) return;
       throw InputError(
-          "another thread is stepping or resetting this batch; let one thread "
-          "do it, or give each a batch of its own");
+          "another thread is stepping or resetting this batch; use one thread "
+          "per batch");
     }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;

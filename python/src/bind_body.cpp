@@ -187,8 +187,8 @@ void bind_body(py::module_& m) {
             const Matrix3X& x = body_of(self).rows.x_B;
             return view_of(x.data(), {x.cols(), 3}, {3, 1}, self);
           },
-          "Undeformed places of the stored nodes from the centre of mass, "
-          "(n, 3) [m]; shares the body's memory.")
+          "Undeformed positions of the stored nodes relative to the centre of "
+          "mass, (n, 3) [m]; shares the body's memory.")
       .def_property_readonly(
           "mode_shapes",
           [](const py::object& self) {

@@ -145,7 +145,7 @@ void bind_builder(py::module_& m) {
   const Vector3 z = Vector3::UnitZ();
   py::class_<SystemBuilder>(
       m, "SystemBuilder",
-      "Builds a system of bodies, joints, loads and controllers. What is wrong "
+      "Builds a system of bodies, joints, loads and controllers. Invalid input "
       "raises InputError and is not added.")
       .def(py::init<>())
       .def(
@@ -239,9 +239,9 @@ void bind_builder(py::module_& m) {
            py::arg("offset") = 0.0, py::arg("identity") = py::none(),
            "A function that is called every `period` [s] and returns one "
            "number for each input of `writes`: law(t, measured, memory), or "
-           "law(t, measured) without memory, which may then keep what it "
-           "likes by itself, but in runs that are not repeated. `measures` "
-           "are functions of the state, {name: measure(state)}.")
+           "law(t, measured) without memory; such a law may keep data of its "
+           "own, but only in runs that are not repeated. `measures` are "
+           "functions of the state, {name: measure(state)}.")
       .def("set_gravity", &SystemBuilder::set_gravity, py::arg("gravity_W"),
            "Uniform, world frame, (3,) [m/s^2].")
       .def(
@@ -249,7 +249,7 @@ void bind_builder(py::module_& m) {
           [](const SystemBuilder& builder) {
             return std::make_shared<SystemModel>(builder.build());
           },
-          "The model, which later changes of the builder leave as it is.");
+          "The model; later changes of the builder do not affect it.");
 }
 
 }  // namespace limber::python

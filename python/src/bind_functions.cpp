@@ -37,7 +37,7 @@ joints::RampShape parse_ramp(const std::string& name) {
                             {"smooth", RampShape::smooth}});
 }
 
-/// [(share, delay [s]), ...]
+/// [(fraction, delay [s]), ...]
 using Shaper = std::vector<std::pair<double, double>>;
 
 Shaper make_shaper(const std::string& kind, double frequency, double ratio) {
@@ -48,7 +48,7 @@ Shaper make_shaper(const std::string& kind, double frequency, double ratio) {
                "shaper", kind,
                {{"zv", ShaperKind::zv}, {"zvd", ShaperKind::zvd}}),
            frequency, ratio)) {
-    made.emplace_back(one.share, one.delay);
+    made.emplace_back(one.fraction, one.delay);
   }
   return made;
 }
@@ -112,8 +112,8 @@ void bind_signals(py::module_& m) {
   py::class_<RampSignal>(
       m, "RampSignal",
       "From one value to another in `duration` [s]: linear, trapezoid (of the "
-      "rate, which rises and falls for the share `rise` of the time) or smooth "
-      "(10 s^3 - 15 s^4 + 6 s^5).")
+      "rate, which rises and falls for the fraction `rise` of the time) or "
+      "smooth (10 s^3 - 15 s^4 + 6 s^5).")
       .def(py::init([](double from, double to, double duration, double start,
                        const std::string& shape, double rise) {
              return RampSignal{from, to, start, duration, parse_ramp(shape),
@@ -147,23 +147,25 @@ void bind_signals(py::module_& m) {
            py::arg("input"), py::arg("factor") = 1.0);
   using Base = std::variant<ConstantSignal, RampSignal, TableSignal, SineSignal,
                             InputSignal>;
-  py::class_<Signal>(m, "Signal",
-                     "A signal shaped by impulses [(share, delay [s]), ...]: "
-                     "the sum of share * base(t - delay).")
+  py::class_<Signal>(
+      m, "Signal",
+      "A signal shaped by impulses [(fraction, delay [s]), ...]: "
+      "the sum of fraction * base(t - delay).")
       .def(py::init([](const Base& base, const Shaper& shaper) {
              Signal signal{base, {}};
-             for (const auto& [share, delay] : shaper) {
-               signal.shaper.push_back({share, delay});
+             for (const auto& [fraction, delay] : shaper) {
+               signal.shaper.push_back({fraction, delay});
              }
              check(signal);
              return signal;
            }),
            py::arg("base"), py::arg("shaper") = Shaper{{1.0, 0.0}});
-  m.def("make_shaper", &make_shaper, py::arg("kind"), py::arg("frequency"),
-        py::arg("ratio") = 0.0,
-        "Impulses [(share, delay [s]), ...] that leave no residual vibration "
-        "of a mode of that natural frequency [Hz] and damping ratio: 'zv' or "
-        "'zvd'.");
+  m.def(
+      "make_shaper", &make_shaper, py::arg("kind"), py::arg("frequency"),
+      py::arg("ratio") = 0.0,
+      "Impulses [(fraction, delay [s]), ...] that leave no residual vibration "
+      "of a mode of that natural frequency [Hz] and damping ratio: 'zv' or "
+      "'zvd'.");
 }
 
 }  // namespace

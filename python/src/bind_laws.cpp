@@ -181,8 +181,8 @@ ScalarLaw to_scalar_law(const py::object& given) {
   if (py::isinstance<EndStop>(given)) return given.cast<EndStop>();
   if (py::isinstance<Drive>(given)) return given.cast<Drive>();
   throw InputError("'" + name_type(given) +
-                   "' is no law along a coordinate; expected a ScalarSpring, "
-                   "Friction, EndStop or Drive");
+                   "' is not a law along a coordinate; expected a "
+                   "ScalarSpring, Friction, EndStop or Drive");
 }
 
 }  // namespace
@@ -192,8 +192,8 @@ CouplerLaw to_coupler_law(const py::object& given) {
   if (py::isinstance<PointSpring>(given)) return given.cast<PointSpring>();
   if (py::isinstance<Latch>(given)) return given.cast<Latch>();
   throw InputError("'" + name_type(given) +
-                   "' is no law of a coupler; expected a Bushing, PointSpring "
-                   "or Latch (joints are made by add_joint)");
+                   "' is not a law of a coupler; expected a Bushing, "
+                   "PointSpring or Latch (joints are made by add_joint)");
 }
 
 std::vector<ScalarLaw> to_scalar_laws(const std::vector<py::object>& given) {

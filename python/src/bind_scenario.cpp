@@ -137,9 +137,9 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
       made.built.warnings.push_back(std::move(*unstable));
     }
     recorded->run = runs::simulate_pictured(scene, std::move(made), options);
-    const bool is_asked =
+    const bool is_requested =
         errors || (scene.scenario.output.errors && given.empty());
-    if (is_asked && !recorded->run.failure) {
+    if (is_requested && !recorded->run.failure) {
       try {
         app::add_errors(recorded->run,
                         app::estimate_errors(recorded->run, cache, watch));

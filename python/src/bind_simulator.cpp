@@ -123,9 +123,9 @@ void bind_simulator(py::module_& m) {
   m.def("simulate", &simulate, py::arg("model"), py::arg("start"),
         py::arg("settings"), py::arg("probes"), py::arg("progress"));
 
-  py::class_<Checkpoint>(m, "Checkpoint",
-                         "A simulation between two steps, to go on from "
-                         "identically to the bit.")
+  py::class_<Checkpoint>(
+      m, "Checkpoint",
+      "A simulation between two steps, from which it continues bit for bit.")
       .def_readonly("time", &Checkpoint::time, "[s]");
   py::class_<SimulationStatistics>(m, "SimulationStatistics",
                                    "Cost, events and warnings.")

@@ -179,7 +179,7 @@ void bind_findings(py::module_& m) {
         return calc_energy(model, state);
       },
       py::arg("model"), py::arg("state"),
-      "Energies and momenta, but work and dissipation, which depend on the "
+      "Energies and momenta, except work and dissipation, which depend on the "
       "history.");
   m.def("find_natural_frequencies", &find_natural_frequencies, py::arg("model"),
         py::arg("state"), py::call_guard<py::gil_scoped_release>(),

@@ -72,8 +72,8 @@ bool SignalWatch::operator()() {
   const double now = std::chrono::duration<double>(
                          std::chrono::steady_clock::now().time_since_epoch())
                          .count();
-  if (now - asked_ < kBetween) return false;
-  asked_ = now;
+  if (now - requested_ < kBetween) return false;
+  requested_ = now;
   const py::gil_scoped_acquire gil;
   if (PyErr_CheckSignals() == 0) return false;
   set_cause(py::error_already_set());

@@ -27,7 +27,7 @@ class SignalWatch {
   [[nodiscard]] bool operator()();
 
  private:
-  double asked_ = 0.0;  // time of a steady clock [s]
+  double requested_ = 0.0;  // time of a steady clock [s]
 };
 
 }  // namespace limber::python

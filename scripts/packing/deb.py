@@ -33,7 +33,7 @@ PACKAGES = {
         "licence": "GPL-3.0-or-later", "section": "science",
         "why": COMMAND_LICENCE + "\nIt links Simbody, which is Apache-2.0, so that the version is 3.",
         "depends": "limber (= VERSION), libcholmod3, libopenblas0-pthread",
-        "title": "limber verify: rigid systems beside Simbody",
+        "title": "limber verify: comparison of rigid systems with Simbody",
         "text": "Compares runs of limber at level rigid with those of an independent program."},
     "liblimber-dev": {
         "component": "dev", "headers": ["core", "reduction"], "licence": "GPL-2.0-or-later",

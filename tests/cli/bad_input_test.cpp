@@ -288,9 +288,8 @@ TEST(BadInput, TendonOverOnePoint) {
 }
 
 TEST(BadInput, MimicInACircle) {
-  expect_robot_refused(
-      two_joints("continuous", "<mimic joint='j'/>"),
-      "robot.urdf:1: joint 'j': <mimic> goes in a circle (j -> j)");
+  expect_robot_refused(two_joints("continuous", "<mimic joint='j'/>"),
+                       "robot.urdf:1: joint 'j': <mimic> is circular (j -> j)");
 }
 
 TEST(BadInput, HingeWhoseAxisHasNoLength) {
@@ -343,9 +342,9 @@ TEST(BadInput, TruncatedReducedBody) {
             0);
   const std::string whole = read_text(place.folder() / "body.h5");
   ASSERT_GT(whole.size(), 1000U);
-  for (const double share : {0.3, 0.7, 0.99}) {
+  for (const double fraction : {0.3, 0.7, 0.99}) {
     place.write("cut.h5",
-                whole.substr(0, std::size_t(share * double(whole.size()))));
+                whole.substr(0, std::size_t(fraction * double(whole.size()))));
     expect_refused(place.limber("info cut.h5"), "cut.h5");
   }
 }
@@ -382,7 +381,7 @@ TEST(BadInput, OfAJointWithoutItsInterfaceNamesThoseThatExist) {
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(
       result.errors,
-      AllOf(HasSubstr("joint 'rooot' holds it at an interface of the "
+      AllOf(HasSubstr("joint 'rooot' is attached to it at an interface of the "
                       "joint's own name"),
             HasSubstr("did you mean 'root'?"), HasSubstr("(known: root, "),
             HasSubstr("<attach joint=\"rooot\"")));

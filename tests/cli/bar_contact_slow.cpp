@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bar's whole skin in contact, at steps of many times the impact.
+// A bar's whole surface in contact, at steps of many times the impact.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

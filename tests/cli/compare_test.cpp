@@ -138,12 +138,14 @@ TEST(Compare, SaysHowLongItWillTakeBeforeItTakesLong) {
     std::filesystem::rename(place.folder() / "push.toml",
                             place.folder() / "long.toml");
     RunningCommand running(place, command + " --out o");
-    for (int i = 0; i < 100 && !says(place, "to go, by its first"); ++i) {
+    for (int i = 0;
+         i < 100 && !says(place, "remaining, estimated from its first"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
     running.send(SIGTERM);
     const CommandResult result = running.wait();
-    EXPECT_THAT(result.errors, HasSubstr("to go, by its first")) << command;
+    EXPECT_THAT(result.errors, HasSubstr("remaining, estimated from its first"))
+        << command;
     std::filesystem::rename(place.folder() / "long.toml",
                             place.folder() / "push.toml");
   }
@@ -192,7 +194,7 @@ TEST(Compare, EndsWithStatus3AndTheClosestWhenNothingMeetsTheTolerance) {
       "compare push.toml --fidelity rigid --reference coupled --tolerance 1% "
       "--repeat 1 --out o");
   EXPECT_EQ(result.status, 3);
-  EXPECT_THAT(result.errors, HasSubstr("nothing meets the tolerance of 1 %"));
+  EXPECT_THAT(result.errors, HasSubstr("no run meets the tolerance of 1 %"));
   EXPECT_THAT(result.errors,
               HasSubstr("'rigid' comes closest with an error of 100 %"));
   EXPECT_THAT(result.out, HasSubstr("deformation"));

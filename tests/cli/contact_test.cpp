@@ -130,7 +130,7 @@ TEST(BallOnLink, IsStruckAlikeInStepsLongerThanTheImpact) {
   write_ball(place, "[time]\nduration = 2e-3\nstep = 1e-4\n");
   const CommandResult result = place.limber("run ball.toml --out o --json");
   EXPECT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("take shorter steps"));
+  EXPECT_THAT(result.errors, HasSubstr("use shorter steps"));
   const json impact = json::parse(result.out)["contacts"][0];
   EXPECT_NEAR(impact["peak_force"].get<double>() / 1692.6, 1.0, 0.02);
   EXPECT_NEAR(impact["impulse"].get<double>() / 0.04368, 1.0, 0.01);

@@ -290,7 +290,8 @@ TEST(Damping, RayleighsMassPartNeedsAClamp) {
   write_arm(place, {.damping = "rayleigh_mass='50'"});
   const CommandResult r = place.limber("frequencies s.toml");
   EXPECT_EQ(r.status, kBadInput);
-  EXPECT_THAT(r.errors, HasSubstr("only a link with a <clamp> takes it"));
+  EXPECT_THAT(r.errors,
+              HasSubstr("it is allowed only for a link with a <clamp>"));
   write_arm(place, {.holds = "clamp", .damping = "rayleigh_mass='50'"});
   const json mode = find_modes(place)[0];
   EXPECT_NEAR(ratio_of(mode),

@@ -159,7 +159,7 @@ TEST(Explain, RefusesWhatIsNoRun) {
   make("compare", "comparison.json", "{}");
   expect_refused(place, "compare", "of a comparison");
   make("half", "summary.json", "{\"steps\": 3, ");
-  expect_refused(place, "half", "not complete JSON");
+  expect_refused(place, "half", "its JSON is incomplete");
   make("list", "summary.json", "[]");
   expect_refused(place, "list", "damaged");
   make("static", "summary.json", "{\"scenario\": \"s\"}");

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/impact_run.hpp"
-#include "cli/skin_link.hpp"
+#include "cli/surface_link.hpp"
 
 namespace limber::test::full_contact_slow {
 namespace {

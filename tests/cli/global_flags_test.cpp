@@ -146,14 +146,15 @@ std::string complete(const Workspace& place, const std::string& words) {
 
 TEST_F(SharedGlobalFlags, CompletionKnowsCommandsOptionsAndLevels) {
   EXPECT_EQ(complete(place_, "stu"),
-            "study\tMany runs of a scenario with other values, in one table\n");
+            "study\tRun a scenario many times with varied values, with all "
+            "results in one table\n");
   EXPECT_THAT(complete(place_, "run s.toml --fi"), HasSubstr("--fidelity\t"));
   EXPECT_EQ(complete(place_, "run --fidelity c"), "coupled\t\n");
   EXPECT_EQ(complete(place_, "run --fidelity=c"), "--fidelity=coupled\t\n");
   EXPECT_EQ(complete(place_, "run --fidelity = c"), "coupled\t\n");
   EXPECT_EQ(complete(place_, "compare --fidelity rigid,f"), "rigid,full\t\n");
   EXPECT_EQ(complete(place_, "cache c"),
-            "clean\tRemove bodies and meshes, and nothing else\n");
+            "clean\tRemove bodies and meshes; other files stay\n");
   EXPECT_EQ(complete(place_, "run --out ''"), "");           // a folder
   EXPECT_EQ(complete(place_, "run s.toml --out x ''"), "");  // a file
   EXPECT_THAT(complete(place_, "verify --integrator runge"),
@@ -224,7 +225,7 @@ TEST_F(SharedGlobalFlags, FishCompletes) {
       shell(in_folder() + "HOME=$PWD fish -N -c 'source " + kShells +
             "limber.fish; complete -C \"limber run --resu\"; complete -C "
             "\"limber cache l\"'");
-  EXPECT_THAT(result.out, AllOf(HasSubstr("--resume\tGo on from"),
+  EXPECT_THAT(result.out, AllOf(HasSubstr("--resume\tContinue from"),
                                 HasSubstr("list\tBodies and meshes")));
 }
 

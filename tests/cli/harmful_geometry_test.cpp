@@ -84,7 +84,7 @@ TEST(HarmfulGeometry, UnderAMeshsNameIsNotRun) {
     place.write("evil.msh", order.text + "\n" + kBox);
     const CommandResult result = place.limber("info evil.msh");
     EXPECT_EQ(result.status, 2) << order.text;
-    EXPECT_THAT(result.errors, HasSubstr("does not begin as one"));
+    EXPECT_THAT(result.errors, HasSubstr("but its content does not"));
   }
   EXPECT_FALSE(has_canary(place));
 }
@@ -136,7 +136,7 @@ TEST(HarmfulGeometry, IsHeldByLimitsThatTheUserSets) {
   place.write("large.geo", kBox + "Transfinite Curve {1:12} = 200000000;\n");
   setenv("LIMBER_MESH_SECONDS", "1", 1);
   EXPECT_THAT(place.limber("info endless.geo").errors,
-              HasSubstr("did not end within 1 s"));
+              HasSubstr("did not finish within 1 s"));
   setenv("LIMBER_MESH_SECONDS", "60", 1);
   setenv("LIMBER_MESH_MEMORY", "0.75", 1);
   const CommandResult large = place.limber("info large.geo");

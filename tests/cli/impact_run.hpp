@@ -20,13 +20,13 @@ inline nlohmann::json run_for_summary(const Workspace& place,
 }
 
 /// Expects of two runs one impact each, the same.
-/// @param share of peak force and impulse by which they may differ, and of the
-/// duration, there and by `step`
+/// @param fraction of peak force and impulse by which they may differ, and of
+/// the duration, there and by `step`
 /// @param restitution by which its value may differ
 /// @param step of both runs, if a touch whose surfaces vibrate towards each
 /// other as they part ends with a step, not within it [s]
 inline void expect_same_impact(const nlohmann::json& run,
-                               const nlohmann::json& reference, double share,
+                               const nlohmann::json& reference, double fraction,
                                double restitution, double step = 0.0) {
   ASSERT_EQ(run["contacts"].size(), 1U);
   ASSERT_EQ(reference["contacts"].size(), 1U);
@@ -34,7 +34,8 @@ inline void expect_same_impact(const nlohmann::json& run,
   const nlohmann::json& expected = reference["contacts"][0];
   const auto compare = [&](const char* key, double more) {
     const double value = expected[key].get<double>();
-    EXPECT_NEAR(impact[key].get<double>(), value, share * value + more) << key;
+    EXPECT_NEAR(impact[key].get<double>(), value, fraction * value + more)
+        << key;
   };
   compare("peak_force", 0.0);
   compare("impulse", 0.0);

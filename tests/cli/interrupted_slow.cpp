@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that a signal ends at any step and that go on have the results of whole
-// ones: every byte of results.h5, and the summary but for what it cost.
+// ones: every byte of results.h5, and the summary except for what it cost.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -116,11 +116,11 @@ TEST_F(Linearize, IsAboutTheStateOfARunAtATime) {
   const json model = read("--at 0.5 --set controller.pd.proportional=1e-9");
   EXPECT_EQ(model["time"], json::parse("[[0.5]]"));
   EXPECT_NEAR(model["y0"][0][0].get<double>(), 0.5 * 2.0 * 0.25, 1e-6);
-  EXPECT_THAT(errors_, HasSubstr("the state at 0.5 s is no steady motion"));
+  EXPECT_THAT(errors_, HasSubstr("the state at 0.5 s is not a steady motion"));
 }
 
 TEST_F(Linearize, RefusesWhatItCannotDoInOneClearError) {
-  expect_refused("-o no.csv", "ends in none of .mat");
+  expect_refused("-o no.csv", "does not end in .mat");
   expect_refused("-o no.mat --at later", "about 'later': expected 'start'");
   expect_refused("-o no.mat --at 2", "the run goes from 0 s to 1 s");
   expect_refused("-o no.mat --inputs motor", "unknown input 'motor'");

@@ -94,7 +94,8 @@ TEST(MeshOnABox, IsRefusedWhereItOverlapsDeeply) {
   const Workspace place;
   const CommandResult result = run_cube(place, make_cube(), -0.02);
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors, HasSubstr("both overlap by 0.02 m at the start"));
+  EXPECT_THAT(result.errors,
+              HasSubstr("the bodies overlap by 0.02 m at the start"));
 }
 
 // Of the audit, too: the last iteration before a state had 3.6 % more, in a

@@ -135,9 +135,9 @@ TEST_F(Modes, OfABasisWithStaticDeformationAnswerTheLoadWhole) {
       EXPECT_NEAR(values[i], eigenvalue, 1e-8 * eigenvalue);
     }
     EXPECT_GT(values[2], alone["eigenvalues"][2]);
-    const json& shares =
+    const json& fractions =
         basis["load_cases"][0]["compliance_cumulative_percent"];
-    EXPECT_NEAR(shares.back(), 100.0, 1e-7);
+    EXPECT_NEAR(fractions.back(), 100.0, 1e-7);
     EXPECT_LT(alone["load_cases"][0]["compliance_cumulative_percent"].back(),
               99.9);
   }

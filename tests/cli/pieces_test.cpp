@@ -157,7 +157,8 @@ TEST(LinkInPieces, RefusesAProbeOfTheLargestStressOfAll) {
   const CommandResult r = place.limber(
       "run s.toml --out o --cache c --fidelity coupled --set basis.pieces=2");
   EXPECT_EQ(r.status, kBadInput);
-  EXPECT_THAT(r.errors, HasSubstr("cut into 2 pieces, which are a body each"));
+  EXPECT_THAT(r.errors,
+              HasSubstr("cut into 2 pieces, which are separate bodies"));
 }
 
 }  // namespace

@@ -62,14 +62,14 @@ TEST_F(Play, RefusesALevelThatNeedsTheMesh) {
   write_scene("[fidelity]\ndefault = 'full'\n");
   expect_refused("--play beam.toml",
                  AllOf(HasSubstr("link 'beam' has level full"),
-                       HasSubstr("take another level")));
+                       HasSubstr("choose another level")));
 }
 
 TEST_F(Play, RefusesFilesThatThePageWouldLack) {
   place_.write("push.txt", "5 1e6 0 0\n");
   write_scene(
       "[[load]]\nname = 'push'\nlink = 'beam'\nnodal_forces = 'push.txt'\n");
-  expect_refused("--play beam.toml", AllOf(HasSubstr("this scene needs more"),
+  expect_refused("--play beam.toml", AllOf(HasSubstr("this scene also needs"),
                                            HasSubstr("push.txt")));
 }
 

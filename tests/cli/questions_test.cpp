@@ -233,13 +233,13 @@ TEST(Questions, NameShapesThatNoContactNames) {
   const std::string warnings = ask(place, ball);
   EXPECT_THAT(warnings, HasSubstr("<contact> of link 'arm' changes nothing"));
   EXPECT_THAT(place.limber("check s.toml").out,
-              HasSubstr("the shape of 'arm' (and of 1 more) touches nothing"));
+              HasSubstr("the shape of 'arm' (and of 1 more) has no effect"));
   const std::string contact =
       "[[contact]]\nbetween = ['arm', 'ball']\nfriction = 0.0\n"
       "restitution = 0.5\n";
   EXPECT_EQ(ask(place, ball + contact), "");
   EXPECT_THAT(place.limber("check s.toml").out,
-              Not(HasSubstr("touches nothing")));
+              Not(HasSubstr("has no effect")));
 }
 
 TEST(Questions, AreNotAskedInExamples) {

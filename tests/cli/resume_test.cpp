@@ -67,7 +67,7 @@ class KilledRunOfASled : public ::testing::Test {
     place_.write("s.toml", scenario);
     const CommandResult result = place_.limber("run s.toml --out out --resume");
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.errors, HasSubstr("is of another run"));
+    EXPECT_THAT(result.errors, HasSubstr("belongs to another run"));
     EXPECT_THAT(result.errors, HasSubstr(text));
     EXPECT_THAT(result.errors, HasSubstr("run without --resume"));
   }
@@ -101,7 +101,7 @@ TEST_F(KilledRunOfASled, IsNotGoneOnFromWithOtherSettings) {
     const CommandResult result =
         place_.limber(std::string("run s.toml --out out --resume ") + option);
     EXPECT_EQ(result.status, 2) << option;
-    EXPECT_THAT(result.errors, HasSubstr("is of another run"));
+    EXPECT_THAT(result.errors, HasSubstr("belongs to another run"));
   }
 }
 
@@ -192,9 +192,8 @@ TEST(StepsTooShortToBeCounted, AreRefused) {
   place.write("s.toml", make_scenario("duration = 1\nstep = 1e-22\n"));
   const CommandResult result = place.limber("run s.toml");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors,
-              HasSubstr("step 1e-22 s takes 1e+22 steps until 1 s; at most "
-                        "1e+12 can be taken"));
+  EXPECT_THAT(result.errors, HasSubstr("step 1e-22 s needs 1e+22 steps until 1 "
+                                       "s; at most 1e+12 are possible"));
 }
 
 TEST(TwoRunsOfOneScene, LeaveTheSameResultsToTheByte) {

@@ -10,7 +10,7 @@
 
 namespace limber::test {
 
-/// What a run's summary says, but for how long it took.
+/// What a run's summary says, except for how long it took.
 /// @param folder of the run's results
 inline nlohmann::json read_summary(const std::filesystem::path& folder) {
   nlohmann::json summary =

@@ -209,7 +209,7 @@ TEST(BlockOnABox, HasNoRadiusOfItsOwn) {
   write_block(place, kBox, 0.05, std::string("radius = 0.1\n") + kFall, true);
   const CommandResult result = place.limber("run scene.toml --out o");
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.errors.find("'radius' has no meaning for a box and a box"),
+  EXPECT_NE(result.errors.find("'radius' does not apply to a box and a box"),
             std::string::npos)
       << result.errors;
 }

@@ -153,7 +153,7 @@ bool makes_no_mesh(const Workspace& place) {
   const CommandResult result =
       place.limber("run bar.toml --out out --cache cache --json");
   if (result.status == 2) {
-    EXPECT_THAT(result.errors, ::testing::HasSubstr("meshing did not end"));
+    EXPECT_THAT(result.errors, ::testing::HasSubstr("meshing did not finish"));
     return false;
   }
   return json::parse(result.out)["bodies_cached"] == 1;

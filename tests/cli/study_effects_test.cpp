@@ -66,7 +66,7 @@ TEST_F(AStudy, TellsEffectsOfFactorsWhereItsSamplesCarryThem) {
   }
   place_.write("study.toml", make(12));
   EXPECT_THAT(run("study.toml --out b"),
-              HasSubstr("cannot tell with 12 samples"));
+              HasSubstr("not significant with 12 samples"));
   const json few = json::parse(run("study.toml --out b --json"));
   EXPECT_TRUE(few["responses"]["y"]["effects"]["a"]["main"].is_null());
 }

@@ -99,7 +99,7 @@ TEST_F(AStudy, EndsOnASignalWithAllThatIsDone) {
   study.send(SIGTERM);
   const CommandResult result = study.wait();
   EXPECT_EQ(result.status, 143);
-  EXPECT_THAT(result.errors, HasSubstr("goes on with the others"));
+  EXPECT_THAT(result.errors, HasSubstr("continues with the others"));
 }
 
 TEST_F(AStudy, IsNotGoneOnWithAnother) {
@@ -108,11 +108,11 @@ TEST_F(AStudy, IsNotGoneOnWithAnother) {
   expect_refused("study.toml --out a", "study, seed: 5 -> 6");
   place_.write("study.toml", kStudy);
   place_.write("s.toml", replace(kScenario, "step = 1e-3", "step = 2e-3"));
-  expect_refused("study.toml --out a", "are of another study");
+  expect_refused("study.toml --out a", "belong to another study");
   const CommandResult opened =
       place_.limber("run --from a/study.sqlite#3 --out f");
   EXPECT_EQ(opened.status, 2);
-  EXPECT_THAT(opened.errors, HasSubstr("is of another state of"));
+  EXPECT_THAT(opened.errors, HasSubstr("was made from another version of"));
 }
 
 TEST_F(AStudy, IsJoinedFromItsShards) {
@@ -129,13 +129,13 @@ TEST_F(AStudy, IsJoinedFromItsShards) {
       "b",
       "shards have no runs in common");
   expect_refused("--collect parts/study-1-of-3.sqlite --out a",
-                 "is there already");
+                 "already exists");
   place_.write("other.toml", replace(kStudy, "seed = 5", "seed = 6"));
   (void)run("other.toml --out other --shard 2/3");
   expect_refused(
       "--collect parts/study-1-of-3.sqlite "
       "other/study-2-of-3.sqlite --out b",
-      "is of another study");
+      "belongs to another study");
 }
 
 TEST_F(AStudy, OfAnotherLayoutIsRefused) {

@@ -117,7 +117,7 @@ TEST_F(VendorRobot, FindsItsPackagesInEveryCommand) {
               HasSubstr("--package 'parts' is no NAME=FOLDER"));
   const CommandResult none = place_.limber("run s.toml --package parts=none");
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.errors, HasSubstr("is no folder"));
+  EXPECT_THAT(none.errors, HasSubstr("is not a folder"));
 }
 
 TEST_F(VendorRobot, FindsPackagesFromTheFolderOfItsScenario) {

@@ -84,9 +84,9 @@ TEST(VerifyCommand, SaysWhichProgramIsMissing) {
   const CommandResult result =
       run_shell(place, "./limber verify '" + kExample + "'");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors,
-              HasSubstr("the verifier 'limber-verify' is not there: looked "
-                        "for "));
+  EXPECT_THAT(
+      result.errors,
+      HasSubstr("the verifier 'limber-verify' was not found; looked for "));
 }
 
 // Its folder is there once it listens to signals.

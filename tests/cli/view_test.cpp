@@ -94,7 +94,7 @@ TEST(View, RefusesARunWhosePageIsMissingBeforeItsFirstStep) {
       run_shell(place, "cp '" LIMBER_COMMAND
                        "' own && ./own run beam.toml --out o --view");
   EXPECT_EQ(result.status, 2) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("is not there: looked for"));
+  EXPECT_THAT(result.errors, HasSubstr("was not found; looked for"));
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "o"));
 }
 
@@ -171,7 +171,7 @@ TEST(View, RefusesResultsThatAreDamaged) {
       {.end = -1.0, .why = "is damaged: output 2 is at -1 s, not after 0 s"},
       {.end = 0.0, .why = "is damaged: output 2 is at 0 s, not after 0 s"},
       {.level = "coupled", .why = "flexible link 'b' has no surface"},
-      {.w = 0.0, .why = "'bodies/b/quat_WB' is no rotation"}};
+      {.w = 0.0, .why = "'bodies/b/quat_WB' is not a rotation"}};
   for (const Damage& damage : all) {
     const Workspace place;
     write_results(place, damage.end, damage.level, damage.w);

@@ -29,8 +29,8 @@ constexpr double kPlacesOfAGap = 4.0;
 /// of their error. Two runs have one each.
 constexpr double kStepErrors = 4.0;
 
-/// Beyond this share of its size or speed a scene multiplies round-off so much
-/// that a comparison shows nothing.
+/// Beyond this fraction of its size or speed a scene multiplies round-off so
+/// much that a comparison shows nothing.
 constexpr double kMeaningful = 1e-2;
 
 /// What round-off of starts at the changed scene's place and speed does to the

@@ -21,14 +21,15 @@ namespace {
 constexpr int kRuns = 6;
 /// Between the last two orders measured, if they are those of the limit [-].
 constexpr double kSteady = 0.2;
-/// Differences below this share of a scene's size and speed are round-off.
+/// Differences below this fraction of a scene's size and speed are round-off.
 constexpr double kRoundoff = 1e-10;
 /// A scene that moves less, of its size, has nothing but round-off [-].
 constexpr double kRest = 1e-6;
 
 using Differences = std::array<double, kRuns - 1>;
 
-// Between runs of steps h and h / 2, as shares of the scene's size and speed.
+// Between runs of steps h and h / 2, as fractions of the scene's size and
+// speed.
 std::optional<Differences> find_differences(ScenePlan plan) {
   Differences differences{};
   Motion last = run(plan);

@@ -21,7 +21,7 @@ class RandomDraw {
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
-  bool chance(double share) { return uniform(0.0, 1.0) < share; }
+  bool chance(double fraction) { return uniform(0.0, 1.0) < fraction; }
   int integer(int low, int high) {
     return low + static_cast<int>(uniform(0.0, 1.0) * (high - low + 1));
   }

@@ -14,7 +14,7 @@ STATES = ("p_WB", "quat_WB", "v_WB_W", "w_WB_B", "eta", "etadot")
 def read_flat(file):
     """Datasets of doubles by name."""
     data = open(file, "rb").read()
-    assert data[:8] == b"LIMBFLAT", "no flat file"
+    assert data[:8] == b"LIMBFLAT", "not a flat file"
     at, sets = 8, {}
 
     def number():

@@ -96,7 +96,7 @@ def test_it_is_about_an_equilibrium_or_a_time_of_the_run(sled):
     assert late.about == "time" and late.time == 0.25
     x = 0.1 * numpy.cos(numpy.sqrt(10.0 / 3.0) * 0.25)
     assert late.y0[0] == pytest.approx(x - 0.1, abs=1e-6)
-    assert any("0.25 s is no steady motion" in text for text in late.warnings)
+    assert any("0.25 s is not a steady motion" in text for text in late.warnings)
 
 
 def test_the_closed_loop_has_the_poles_of_the_sampled_double_integrator(rotor, tmp_path):
@@ -145,6 +145,6 @@ def test_what_it_cannot_do_is_refused_with_the_reason(rotor, words, culprit):
 
 
 def test_a_file_of_no_known_ending_is_refused(rotor, tmp_path):
-    with pytest.raises(limber.InputError, match="ends in none of .mat"):
+    with pytest.raises(limber.InputError, match="does not end in .mat"):
         limber.linearize(rotor).save(tmp_path / "m.csv")
     assert not (tmp_path / "m.csv").exists()

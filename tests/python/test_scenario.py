@@ -93,7 +93,7 @@ def test_keys_are_read_from_the_file_and_from_what_was_set(sled):
         with pytest.raises(KeyError, match="neither in"):
             scenario[path]
     for path in ["", "time..step", 'time."step', ".time"]:
-        with pytest.raises(KeyError, match="is no path"):
+        with pytest.raises(KeyError, match="is not a path"):
             scenario[path]
     with pytest.raises(KeyError, match="robot's file"):
         scenario["robot.spring.coil.damping"]
@@ -105,7 +105,7 @@ def test_wrong_keys_name_the_nearest_and_leave_the_scenario(sled):
         scenario["load.push.forse.0"] = 2.0
     assert caught.value.problems
     assert scenario.settings == []
-    with pytest.raises(limber.InputError, match="object is no value"):
+    with pytest.raises(limber.InputError, match="object is not a value"):
         scenario["time.step"] = object()
     with pytest.raises(limber.InputError, match="none.toml"):
         limber.load("none.toml")

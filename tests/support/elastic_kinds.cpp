@@ -131,12 +131,14 @@ void bend(dynamics::SystemModel& model, double amplitude) {
     const int paired = static_cast<int>(a.Phi_B.cols()) - 1;
     std::vector<int> modes(static_cast<std::size_t>(paired));
     std::iota(modes.begin(), modes.end(), 1);
-    const double share = 1.0 / (paired * amplitude);
+    const double fraction = 1.0 / (paired * amplitude);
     a.second = std::make_shared<const flexbody::QuadraticFrame>(
         flexbody::make_quadratic_frame(
             modes,
-            make_pairs(paired, share * a.Phi_B.cwiseAbs().maxCoeff(), random),
-            make_pairs(paired, share * a.Psi_B.cwiseAbs().maxCoeff(), random)));
+            make_pairs(paired, fraction * a.Phi_B.cwiseAbs().maxCoeff(),
+                       random),
+            make_pairs(paired, fraction * a.Psi_B.cwiseAbs().maxCoeff(),
+                       random)));
   }
 }
 

@@ -47,7 +47,7 @@ class SceneDraw {
     mass_ = log_uniform(1e-6, 1e6) * size_;
     frequency_ = log_uniform(1.0, 1e5);
     spin_ = chance(0.5) ? 0.0 : uniform(0.0, 3.0) * frequency_;
-    push_share_ = std::min(0.4, 8.0 / bodies);  // each adds steps
+    push_fraction_ = std::min(0.4, 8.0 / bodies);  // each adds steps
     RandomScene scene;
     for (int b = 0; b < bodies; ++b) add_body(b);
     if (chance(0.5)) {
@@ -68,7 +68,7 @@ class SceneDraw {
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
-  bool chance(double share) { return uniform(0.0, 1.0) < share; }
+  bool chance(double fraction) { return uniform(0.0, 1.0) < fraction; }
   int draw_int(int low, int high) {
     return low + static_cast<int>(uniform(0.0, 1.0) * (high - low + 1));
   }
@@ -126,7 +126,7 @@ class SceneDraw {
     place(b);
     join(b, name, near);
     ends_.push_back(far);
-    if (chance(push_share_)) push(name, far, mass);
+    if (chance(push_fraction_)) push(name, far, mass);
   }
 
   // Its near end at its parent's far end.
@@ -264,7 +264,7 @@ class SceneDraw {
   double mass_ = 1.0;
   double frequency_ = 1.0;
   double spin_ = 0.0;
-  double push_share_ = 0.0;
+  double push_fraction_ = 0.0;
   std::vector<Vector3> near_;
   std::vector<Vector3> far_;
   std::vector<Vector3> p_WB_;

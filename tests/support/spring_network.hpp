@@ -26,7 +26,7 @@ struct SpringNetwork {
   MatrixX M_s;   ///< N x N, positive definite, not diagonal [kg]
   std::vector<Spring> springs;
   std::vector<char> held;      ///< N
-  double least_stretch = 0.0;  ///< shorter than this share of L: inside out
+  double least_stretch = 0.0;  ///< shorter than this fraction of L: inside out
 
   [[nodiscard]] int size() const { return static_cast<int>(x_B.cols()); }
   [[nodiscard]] VectorX node_mass() const { return M_s.rowwise().sum(); }

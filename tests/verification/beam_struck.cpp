@@ -123,7 +123,7 @@ class StruckBeam : public ::testing::Test {
 };
 
 /// What the whole model's deformation comes to at most at A, B and C [m], and
-/// the share of it that 50 free-free eigenmodes miss, both by a program that
+/// the fraction of it that 50 free-free eigenmodes miss, both by a program that
 /// shares no code with this one (tests/data/beam/README.md).
 constexpr double kLargestDeformation = 1.1018e-8;
 constexpr double kMissedBy50Modes = 0.02995;

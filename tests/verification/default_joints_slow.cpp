@@ -72,7 +72,7 @@ TEST(DefaultJoints, AreSlowForAnImpactOnlyIfGivenSoAndThenWarn) {
   scene.robot.joints.at(0).coupler.translational_stiffness = 4e7;  // 1 kHz
   EXPECT_THAT(simulate(scene).statistics.warnings,
               ::testing::Contains(::testing::HasSubstr(
-                  "joint 'hinge' is slow beside the impact")));
+                  "joint 'hinge' is slow relative to the impact")));
 }
 
 TEST(DefaultJoints, ThatStoreMoreThanAPercentOfTheEnergyWarn) {
@@ -80,8 +80,9 @@ TEST(DefaultJoints, ThatStoreMoreThanAPercentOfTheEnergyWarn) {
   scene.robot.joints.at(0).coupler.translational_stiffness = 1e8;
   const app::StaticRun run =
       app::find_static(scene, dynamics::EquilibriumMethod::newton, cache(), {});
-  EXPECT_THAT(run.warnings, ::testing::Contains(::testing::HasSubstr(
-                                "joint 'root' is soft beside the bodies")));
+  EXPECT_THAT(run.warnings,
+              ::testing::Contains(::testing::HasSubstr(
+                  "joint 'root' is soft relative to the bodies")));
 }
 
 /// Gives each joint and loop without a stiffness `factor` times its default.
@@ -91,12 +92,12 @@ void scale_defaults(const scene::BuiltScene& built, double factor,
                          scene::CouplerOptions& options) {
     for (const dynamics::Coupler& coupler : built.model.couplers) {
       if (coupler.name != name) continue;
-      const auto hold = joints::find_hold_stiffness(coupler.law);
-      if (!hold) continue;
+      const auto constraint = joints::find_constraint_stiffness(coupler.law);
+      if (!constraint) continue;
       if (!options.translational_stiffness)
-        options.translational_stiffness = factor * hold->translational;
+        options.translational_stiffness = factor * constraint->translational;
       if (!options.rotational_stiffness)
-        options.rotational_stiffness = factor * hold->rotational;
+        options.rotational_stiffness = factor * constraint->rotational;
     }
   };
   for (scene::Joint& joint : robot.joints) scale(joint.name, joint.coupler);

@@ -84,17 +84,17 @@ Audit audit(const scene::Scene& scene) {
       })};
 }
 
-/// Steps are `share` of the short ones, and so are those of impacts.
-Audit audit(const fs::path& file, double share) {
+/// Steps are `fraction` of the short ones, and so are those of impacts.
+Audit audit(const fs::path& file, double fraction) {
   scene::Scene scene = scene::load_scene(file);
   dynamics::SimulationSettings& settings = scene.scenario.settings;
   const Steps& steps = kShortSteps.at(file.stem());
   settings.tolerance = 0.0;
-  settings.step = share * steps.first;
-  settings.impact_steps /= share;
+  settings.step = fraction * steps.first;
+  settings.impact_steps /= fraction;
   settings.step_changes = steps.changes;
   for (dynamics::StepChange& change : settings.step_changes) {
-    change.step *= share;
+    change.step *= fraction;
   }
   return audit(scene);
 }
@@ -104,7 +104,7 @@ TEST(ExampleAudit, ClosesToATenThousandthAsTheFilesAre) {
   for (const fs::path& file : find_examples()) {
     SCOPED_TRACE(file.filename());
     EXPECT_LE(audit(scene::load_scene(file)).drift,
-              0.01 * dynamics::kToldDrift);
+              0.01 * dynamics::kReportedDrift);
   }
 }
 

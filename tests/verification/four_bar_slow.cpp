@@ -178,7 +178,7 @@ class FourBarsRod : public ::testing::Test {
   static inline Series formula_;     ///< of that, without ringing [m]
 };
 
-// The formula neglects the share (Omega / omega)^2 of terms that change at
+// The formula neglects the fraction (Omega / omega)^2 of terms that change at
 // Omega: a hundredth at three times the crank's rate. And the rod's loss factor
 // of 0.01 makes it softer by that, at rest.
 TEST_F(FourBarsRod, BendsOnAverageAsABeamUnderItsOwnInertia) {

@@ -63,8 +63,8 @@ TEST(InitialDeformation, OfAModeShapeIsThatMode) {
           *reduce_with(0.02 * Phi.col(k), is_clamped).initial.velocity;
       EXPECT_NEAR((field.eta - 0.02 * VectorX::Unit(6, k)).norm(), 0.0,
                   kRoundoff);
-      EXPECT_NEAR(field.missed_share, 0.0, 1e-7);  // root of roundoff
-      EXPECT_NEAR(field.rigid_share, 0.0, kRoundoff);
+      EXPECT_NEAR(field.missed_fraction, 0.0, 1e-7);  // root of roundoff
+      EXPECT_NEAR(field.rigid_fraction, 0.0, kRoundoff);
     }
   }
 }
@@ -74,7 +74,7 @@ TEST(InitialDeformation, TellsWhatTheBasisMisses) {
   const MatrixX Phi = mode_shapes(9, false);
   const auto field =
       *reduce_with(0.6 * Phi.col(0) + 0.8 * Phi.col(8), false).initial.velocity;
-  EXPECT_NEAR(field.missed_share, 0.8, 1e-9);
+  EXPECT_NEAR(field.missed_fraction, 0.8, 1e-9);
   EXPECT_NEAR(field.eta[0], 0.6, 1e-9);
   EXPECT_THAT(describe_losses(field, "initial velocity"),
               ElementsAre(HasSubstr("80 % of the initial velocity")));
@@ -89,8 +89,8 @@ TEST(InitialDeformation, LeavesRigidMotionToTheBodyFrame) {
   const auto rigid = *reduce_with(field, false).initial.velocity;
   // Of the field's norm, sqrt(40000 kg) times metres a second.
   EXPECT_NEAR(rigid.eta.norm(), 0.0, 1e-12 * 200.0 * 10.0);
-  EXPECT_NEAR(rigid.rigid_share, 1.0, kRoundoff);
-  EXPECT_EQ(rigid.missed_share, 0.0);
+  EXPECT_NEAR(rigid.rigid_fraction, 1.0, kRoundoff);
+  EXPECT_EQ(rigid.missed_fraction, 0.0);
   EXPECT_THAT(describe_losses(rigid, "initial velocity"),
               ElementsAre(HasSubstr("100 % of the initial velocity")));
   // Half of it in norm beside as much of a mode: 1 / sqrt(2).
@@ -99,7 +99,7 @@ TEST(InitialDeformation, LeavesRigidMotionToTheBodyFrame) {
   const VectorX translation = v.replicate(beam().node_count(), 1);
   const auto mixed =
       *reduce_with(translation + size * Phi.col(0), false).initial.velocity;
-  EXPECT_NEAR(mixed.rigid_share, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(mixed.rigid_fraction, std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(mixed.eta[0] / size, 1.0, 1e-9);
 }
 
@@ -108,8 +108,8 @@ TEST(InitialDeformation, OfAClampedBodyHasNoRigidShare) {
   const VectorX field = VectorX::Ones(
       3 * static_cast<Eigen::Index>(test::free_nodes(beam()).size()));
   const auto found = *reduce_with(field, true).initial.velocity;
-  EXPECT_EQ(found.rigid_share, 0.0);
-  EXPECT_GT(found.missed_share, 0.1);
+  EXPECT_EQ(found.rigid_fraction, 0.0);
+  EXPECT_GT(found.missed_fraction, 0.1);
   EXPECT_GT(found.eta.norm(), 100.0);
 }
 
@@ -121,7 +121,7 @@ TEST(InitialDeformation, DoesNotDependOnTheRowsThatAreKept) {
   for (const char* rows : {"boundary", "tip", "interfaces"}) {
     const auto few = *reduce_with(field, false, rows).initial.velocity;
     EXPECT_EQ(all.eta, few.eta) << rows;
-    EXPECT_EQ(all.missed_share, few.missed_share) << rows;
+    EXPECT_EQ(all.missed_fraction, few.missed_fraction) << rows;
   }
 }
 

@@ -143,11 +143,11 @@ std::vector<Motion> make_motions() {
   };
 }
 
-/// An estimate is no more than this share below the truth (the measure of
+/// An estimate is no more than this fraction below the truth (the measure of
 /// peaks alone is within 1 %), and no more than this factor above it.
 constexpr double kBelow = 0.1;
 constexpr double kAbove = 5.0;
-/// Errors below this share of the neglected displacement are ignored.
+/// Errors below this fraction of the neglected displacement are ignored.
 constexpr double kNoAccount = 1e-3;
 
 void expect_estimate(double estimate, double truth, const std::string& what) {

@@ -95,8 +95,8 @@ double find_omega(double alpha, double boundary) {
 }
 
 TEST(ReportBoundaryDots, NoneBelowTheBoundaryDiffersByMore) {
-  for (const double share : {0.0, 0.5, 0.95}) {
-    const double near = share * kMicrometre;
+  for (const double fraction : {0.0, 0.5, 0.95}) {
+    const double near = fraction * kMicrometre;
     EXPECT_LT(find_difference(near, find_omega(near, kMicrometre)), 1e-6)
         << "alpha " << near;
   }

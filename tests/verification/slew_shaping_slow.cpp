@@ -103,11 +103,11 @@ TEST_F(Slew, ShapedForAFrequencyTenPercentWrongLeavesWhatTheFormulasSay) {
   const double plain = find_residual();
   for (const double ratio : {0.9, 1.1}) {
     const double left = std::abs(std::cos(0.5 * std::numbers::pi * ratio));
-    const auto share = [&](ShaperKind kind) {
+    const auto fraction = [&](ShaperKind kind) {
       return find_residual(kind, frequency / ratio) / plain;
     };
-    EXPECT_NEAR(share(ShaperKind::zv), left, 0.003);
-    EXPECT_NEAR(share(ShaperKind::zvd), left * left, 0.003);
+    EXPECT_NEAR(fraction(ShaperKind::zv), left, 0.003);
+    EXPECT_NEAR(fraction(ShaperKind::zvd), left * left, 0.003);
   }
 }
 

@@ -54,7 +54,7 @@ TEST(SolidStatic, AgreesWithTheReferenceOnAFinerMeshWhateverTheLoadSteps) {
 }
 
 TEST(SolidStatic, ASmallLoadHasTheLinearAnswer) {
-  // own, lin; the quadratic share of 500 N is some 1e-6 of it.
+  // own, lin; the quadratic fraction of 500 N is some 1e-6 of it.
   EXPECT_NEAR(bend("beam579_v41.msh", 500.0, 1).tip.x(), 1.27901468831e-06,
               2e-6 * 1.279e-6);
 }

@@ -105,7 +105,8 @@ TEST(StressOfAThickDisc, InSpinIsTheClosedFormAtAllNodes) {
     const Vector3 x =
         body.mesh.x.col(stress.nodes[static_cast<std::size_t>(i)]);
     const double r = x.head<2>().norm();
-    const Vector6 polar = turn_stress(stress.stress.col(i), find_polar_axes(x));
+    const Vector6 polar =
+        rotate_stress(stress.stress.col(i), find_polar_axes(x));
     const PolarStress exact = spin_disc(r);
     EXPECT_NEAR(polar[0], exact.radial, close) << r;
     EXPECT_NEAR(polar[1], exact.hoop, close) << r;

@@ -25,7 +25,7 @@ class InputError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-/// What the C library's errno says, as text.
+/// The C library's errno as text.
 [[nodiscard]] std::string describe_errno();
 
 /// A computation that cannot continue: no convergence, a singular matrix, a

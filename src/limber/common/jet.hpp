@@ -89,8 +89,8 @@ inline JetVector cross(const JetVector& a, const JetVector& b) {
           a[0] * b[1] - a[1] * b[0]};
 }
 
-/// x turned by exp(sign theta) of a motion (u, theta).
-inline JetVector turn(const JetVector& x, double sign) {
+/// x rotated by exp(sign theta) of a motion (u, theta).
+inline JetVector apply_rotation(const JetVector& x, double sign) {
   JetVector theta;
   for (int i = 0; i < 3; ++i) {
     theta[static_cast<std::size_t>(i)].slope[3 + i] = sign;
@@ -107,7 +107,7 @@ inline JetVector move(const Vector3& x) {
     u[static_cast<std::size_t>(i)].slope[i] = 1.0;
     theta[static_cast<std::size_t>(i)].slope[3 + i] = 1.0;
   }
-  return turn(make_jets(x), 1.0) + u + Jet(0.5) * cross(theta, u);
+  return apply_rotation(make_jets(x), 1.0) + u + Jet(0.5) * cross(theta, u);
 }
 
 }  // namespace limber

@@ -6,14 +6,14 @@
 
 namespace limber {
 
-/// What a message expects of a length unit.
+/// Description of a valid length unit, for messages.
 inline constexpr std::string_view kLengthUnits =
     "m, cm, mm, in, ft, or a positive number of metres";
 
 /// Metres of a length unit. Empty unless it is one of kLengthUnits.
 [[nodiscard]] std::optional<double> parse_length_unit(std::string_view text);
 
-/// What a message expects of a unit of force.
+/// Description of a valid unit of force, for messages.
 inline constexpr std::string_view kForceUnits =
     "N, kN, lbf, or a positive number of newtons";
 

@@ -23,12 +23,12 @@ inline constexpr double kImpactDuration = 0.01;
 /// @throws ContractError for values outside their range.
 [[nodiscard]] double find_restitution_damping(double restitution, double speed);
 
-/// Smaller restitutions use the factor of this one: the bodies then keep 0.25 %
-/// of their energy. The factor grows without bound towards 0 [-].
+/// Smaller restitutions use the factor of this one: the bodies then retain 0.25
+/// % of their energy. The factor grows without bound towards 0 [-].
 inline constexpr double kLeastRestitution = 0.05;
 
-/// The beta with which two free bodies under f max(0, 1 + beta v / sqrt(v^2 +
-/// 2 W / m)) part with `restitution` times the speed of their touch.
+/// The beta with which two free bodies under f max(0, 1 + beta v / sqrt(v^2 + 2
+/// W / m)) separate with `restitution` times their approach speed.
 ///
 /// Equation   ln e = -beta int u^2 / (1 + beta (u - u^3)) du from -1 to 1,
 ///            beta <= 1; beyond it from -1/beta, where the force ends, and

@@ -5,13 +5,13 @@
 
 namespace limber {
 
-/// In which an angular velocity is expressed: those of the world or of what
-/// rotates.
+/// Axes in which an angular velocity is expressed: those of the world or of the
+/// rotating body.
 enum class RotationAxes { fixed, rotating };
 
 /// Integral of the angular velocity over a step [rad]; NaN where the rotation
-/// is not that of the mean angular velocity to 1 rad, so that whole turns are
-/// not known.
+/// is not that of the mean angular velocity to 1 rad, so that the number of
+/// full turns is unknown.
 ///
 /// Equation   theta + h^2 (w_0 x w_1) / 12, theta = log(R_1 R_0'), in fixed
 /// axes,

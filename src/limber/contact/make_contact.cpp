@@ -6,7 +6,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/patches/patch_sides.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 namespace limber::contact {
 namespace {
@@ -15,11 +15,11 @@ namespace {
 std::string list_bare_surfaces(const ContactSide& A, const ContactSide& B) {
   std::string names;
   for (const ContactSide* side : {&A, &B}) {
-    const auto* skin =
-        std::get_if<std::shared_ptr<const Skin>>(&side->shape.kind);
-    if (skin == nullptr || !make_parts(*side).empty()) continue;
+    const auto* mesh_surface =
+        std::get_if<std::shared_ptr<const MeshSurface>>(&side->shape.kind);
+    if (mesh_surface == nullptr || !make_parts(*side).empty()) continue;
     names += fmt::format("{}'{}'", names.empty() ? "" : " and ",
-                         (*skin)->surface().name);
+                         (*mesh_surface)->surface().name);
   }
   return names;
 }
@@ -34,12 +34,13 @@ std::shared_ptr<const joints::PairInteraction> make_contact(
   }
   const std::string bare = list_bare_surfaces(A, B);
   if (bare.empty()) {
-    throw InputError("contact: these two shapes cannot touch each other");
+    throw InputError(
+        "contact: contact between these two shapes is not supported");
   }
   throw InputError(fmt::format(
-      "contact: surface {} has no convex parts, so that only balls can touch "
-      "it: divide a flat group with hollows into convex ones, or make the "
-      "saved body anew by 'limber reduce'",
+      "contact: surface {} has no convex parts, so that only spheres can be in "
+      "contact with it: divide a flat group that is not convex into convex "
+      "ones, or reduce the saved body again by 'limber reduce'",
       bare));
 }
 

@@ -9,7 +9,7 @@
 
 namespace limber::contact {
 
-/// The law between two bodies that may touch.
+/// The contact law between two bodies.
 /// @throws InputError for parameters outside their range, or that these shapes
 /// do not have, and unless suits(A, B).
 [[nodiscard]] std::shared_ptr<const joints::PairInteraction> make_contact(

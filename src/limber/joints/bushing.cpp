@@ -206,26 +206,28 @@ RequiredSides Bushing::find_required_rotations() const {
   return {required, required};
 }
 
-HoldStiffness find_hold_stiffness(const Bushing& hold) {
-  return {find_largest(hold.parameters().translational_stiffness),
-          find_largest(hold.parameters().rotational_stiffness)};
+ConstraintStiffness find_constraint_stiffness(const Bushing& constraint) {
+  return {find_largest(constraint.parameters().translational_stiffness),
+          find_largest(constraint.parameters().rotational_stiffness)};
 }
 
-HoldGive find_give(const Bushing& hold, const HoldStiffness& stiffness,
-                   const RelativeMotion& motion) {
-  const Bushing::Parameters& p = hold.parameters();
-  HoldGive give;
+ConstraintDeflection find_deflection(const Bushing& constraint,
+                                     const ConstraintStiffness& stiffness,
+                                     const RelativeMotion& motion) {
+  const Bushing::Parameters& p = constraint.parameters();
+  ConstraintDeflection deflection;
   if (stiffness.translational > 0.0) {
     const Vector3 force = p.translational_stiffness * motion.p_FM_F;
-    give.distance = force.norm() / stiffness.translational;
+    deflection.distance = force.norm() / stiffness.translational;
   }
   if (stiffness.rotational > 0.0) {
     // theta^2 / 2 of a rotation by small angles.
     const Matrix3 D = find_chordal(p.rotational_stiffness);
     const double energy = (D * (Matrix3::Identity() - motion.R_FM)).trace();
-    give.turn = std::sqrt(2.0 * std::max(energy, 0.0) / stiffness.rotational);
+    deflection.rotation =
+        std::sqrt(2.0 * std::max(energy, 0.0) / stiffness.rotational);
   }
-  return give;
+  return deflection;
 }
 
 }  // namespace limber::joints

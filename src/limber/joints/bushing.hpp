@@ -29,7 +29,7 @@ namespace limber::joints {
 class Bushing : public WithoutSwitches,
                 public WithoutCoordinates,
                 public WithoutCommands,
-                public WithoutHold,
+                public WithoutConstraint,
                 public WithoutReadings {
  public:
   /// Expressed in F. Both 6 x 6 matrices are symmetric and positive
@@ -113,9 +113,10 @@ constexpr auto fields_of(const Bushing::Parameters*) {
 /// Stiffness and deflection of a joint's constrained directions. The distance
 /// is that in constrained directions; the rotation is the angle about the
 /// stiffest axis that stores the same energy.
-[[nodiscard]] HoldStiffness find_hold_stiffness(const Bushing& hold);
-[[nodiscard]] HoldGive find_give(const Bushing& hold,
-                                 const HoldStiffness& stiffness,
-                                 const RelativeMotion& motion);
+[[nodiscard]] ConstraintStiffness find_constraint_stiffness(
+    const Bushing& constraint);
+[[nodiscard]] ConstraintDeflection find_deflection(
+    const Bushing& constraint, const ConstraintStiffness& stiffness,
+    const RelativeMotion& motion);
 
 }  // namespace limber::joints

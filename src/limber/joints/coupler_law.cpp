@@ -103,15 +103,18 @@ Vector6 find_target_velocity(const CouplerLaw& law,
       law);
 }
 
-std::optional<HoldStiffness> find_hold_stiffness(const CouplerLaw& law) {
-  return std::visit([](const auto& own) { return own.find_hold_stiffness(); },
-                    law);
+std::optional<ConstraintStiffness> find_constraint_stiffness(
+    const CouplerLaw& law) {
+  return std::visit(
+      [](const auto& own) { return own.find_constraint_stiffness(); }, law);
 }
 
-HoldGive find_give(const CouplerLaw& law, const HoldStiffness& stiffness,
-                   const RelativeMotion& motion) {
+ConstraintDeflection find_deflection(const CouplerLaw& law,
+                                     const ConstraintStiffness& stiffness,
+                                     const RelativeMotion& motion) {
   return std::visit(
-      [&](const auto& own) { return own.find_give(stiffness, motion); }, law);
+      [&](const auto& own) { return own.find_deflection(stiffness, motion); },
+      law);
 }
 
 std::vector<AxisCoordinate::Kind> reading_kinds(const CouplerLaw& law) {

@@ -78,11 +78,11 @@ void update_memory(const CouplerLaw& law, int index,
 
 /// Stiffness of the directions that the law should constrain, none for a law
 /// that is meant to deflect; and its deflection in those directions.
-[[nodiscard]] std::optional<HoldStiffness> find_hold_stiffness(
+[[nodiscard]] std::optional<ConstraintStiffness> find_constraint_stiffness(
     const CouplerLaw& law);
-[[nodiscard]] HoldGive find_give(const CouplerLaw& law,
-                                 const HoldStiffness& stiffness,
-                                 const RelativeMotion& motion);
+[[nodiscard]] ConstraintDeflection find_deflection(
+    const CouplerLaw& law, const ConstraintStiffness& stiffness,
+    const RelativeMotion& motion);
 
 /// Coordinates that a simulation can record, and one of them: those of a joint,
 /// the length of a spring.

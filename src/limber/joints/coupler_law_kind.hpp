@@ -15,9 +15,9 @@
 #include "limber/joints/scalar/scalar_law.hpp"
 #include "limber/joints/scalar/scalar_law_kind.hpp"
 
-/// What a law between two frames provides. What does not apply to a law it
-/// inherits from one of the bases below; a law that lacks a function does not
-/// compile.
+/// Functions that a law between two frames provides. Those that do not apply to
+/// a law it inherits from one of the bases below; a law that lacks a function
+/// does not compile.
 namespace limber::joints {
 
 /// `evaluate_over_step` balances energies exactly (discrete_gradient.hpp).
@@ -112,17 +112,24 @@ struct WithoutCommands {
 /// Stiffness that replaces a constraint, and its deflection, which should stay
 /// small; none for a law that is meant to deflect.
 template <typename Law>
-concept HasHold = requires(const Law& law, const HoldStiffness& stiffness,
-                           const RelativeMotion& motion) {
-  { law.find_hold_stiffness() } -> std::same_as<std::optional<HoldStiffness>>;
-  { law.find_give(stiffness, motion) } -> std::same_as<HoldGive>;
+concept HasConstraint = requires(const Law& law,
+                                 const ConstraintStiffness& stiffness,
+                                 const RelativeMotion& motion) {
+  {
+    law.find_constraint_stiffness()
+    } -> std::same_as<std::optional<ConstraintStiffness>>;
+  {
+    law.find_deflection(stiffness, motion)
+    } -> std::same_as<ConstraintDeflection>;
 };
-struct WithoutHold {
-  [[nodiscard]] static std::optional<HoldStiffness> find_hold_stiffness() {
+struct WithoutConstraint {
+  [[nodiscard]] static std::optional<ConstraintStiffness>
+  find_constraint_stiffness() {
     return std::nullopt;
   }
-  [[nodiscard]] static HoldGive find_give(const HoldStiffness& /*stiffness*/,
-                                          const RelativeMotion& /*motion*/) {
+  [[nodiscard]] static ConstraintDeflection find_deflection(
+      const ConstraintStiffness& /*stiffness*/,
+      const RelativeMotion& /*motion*/) {
     return {};
   }
 };
@@ -153,6 +160,6 @@ struct WithoutReadings {
 template <typename Law>
 concept CouplerLawKind = ExertsForce<Law> && RequiresRotations<Law> &&
     HasSwitches<Law> && HasCoordinates<Law> && HasCommands<Law> &&
-    HasHold<Law> && HasReadings<Law> && NamesItsFields<Law>;
+    HasConstraint<Law> && HasReadings<Law> && NamesItsFields<Law>;
 
 }  // namespace limber::joints

@@ -8,9 +8,9 @@
 
 namespace limber::joints {
 
-Joint::Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
+Joint::Joint(Constraint constraint, std::vector<AxisCoordinate> coordinates,
              std::vector<JointElement> elements)
-    : parameters_{std::move(hold), std::move(coordinates),
+    : parameters_{std::move(constraint), std::move(coordinates),
                   std::move(elements)} {
   LIMBER_EXPECT(std::ssize(this->coordinates()) <= kMaxCoordinates);
   for (const AxisCoordinate& coordinate : this->coordinates()) {
@@ -31,7 +31,8 @@ CouplerResponse Joint::evaluate(const RelativeMotion& motion,
                                 const CouplerMemory& memory,
                                 const EvaluationTime& now) const {
   CouplerResponse response = std::visit(
-      [&](const auto& hold) { return hold.evaluate(motion); }, hold());
+      [&](const auto& constraint) { return constraint.evaluate(motion); },
+      constraint());
   if (elements().empty()) return response;
   // Laws along one coordinate are summed.
   for (std::size_t i = 0; i < coordinates().size(); ++i) {
@@ -57,7 +58,8 @@ CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
                                           const CouplerMemory& memory,
                                           const StepTimes& times) const {
   CouplerResponse response = std::visit(
-      [&](const auto& hold) { return hold.evaluate(motion.mean); }, hold());
+      [&](const auto& constraint) { return constraint.evaluate(motion.mean); },
+      constraint());
   for (std::size_t e = 0; e < elements().size(); ++e) {
     const JointElement& element = elements()[e];
     const auto i = static_cast<std::size_t>(element.coordinate);
@@ -75,7 +77,10 @@ CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
 
 RequiredSides Joint::find_required_rotations() const {
   RequiredSides required = std::visit(
-      [](const auto& hold) { return hold.find_required_rotations(); }, hold());
+      [](const auto& constraint) {
+        return constraint.find_required_rotations();
+      },
+      constraint());
   for (const JointElement& element : elements()) {
     required +=
         joints::find_required_rotations(coordinates(), element.coordinate);
@@ -153,19 +158,21 @@ Vector6 Joint::find_target_velocity(const RelativeMotion& motion,
   return target;
 }
 
-std::optional<HoldStiffness> Joint::find_hold_stiffness() const {
+std::optional<ConstraintStiffness> Joint::find_constraint_stiffness() const {
   return std::visit(
-      [](const auto& hold) { return joints::find_hold_stiffness(hold); },
-      hold());
+      [](const auto& constraint) {
+        return joints::find_constraint_stiffness(constraint);
+      },
+      constraint());
 }
 
-HoldGive Joint::find_give(const HoldStiffness& stiffness,
-                          const RelativeMotion& motion) const {
+ConstraintDeflection Joint::find_deflection(
+    const ConstraintStiffness& stiffness, const RelativeMotion& motion) const {
   return std::visit(
-      [&](const auto& hold) {
-        return joints::find_give(hold, stiffness, motion);
+      [&](const auto& constraint) {
+        return joints::find_deflection(constraint, stiffness, motion);
       },
-      hold());
+      constraint());
 }
 
 std::vector<AxisCoordinate::Kind> Joint::reading_kinds() const {

@@ -10,20 +10,21 @@
 #include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/coupler_law_kind.hpp"
 #include "limber/joints/scalar/scalar_law.hpp"
-#include "limber/joints/universal_hold.hpp"
+#include "limber/joints/universal_constraint.hpp"
 
 namespace limber::joints {
 
 /// A joint: stiffness in its constrained directions, and scalar laws along its
 /// free coordinates.
 ///
-/// Equation   the sum of the wrench of `hold` and of force * gradient of each
+/// Equation   the sum of the wrench of `constraint` and of force * gradient of
+/// each
 ///            element, with the coordinates of AxisCoordinate
 class Joint : public WithoutTriggers {
  public:
-  using Hold = std::variant<Bushing, UniversalHold>;
+  using Constraint = std::variant<Bushing, UniversalConstraint>;
   struct Parameters {
-    Hold hold;
+    Constraint constraint;
     std::vector<AxisCoordinate> coordinates;
     std::vector<JointElement> elements;
   };
@@ -31,11 +32,13 @@ class Joint : public WithoutTriggers {
   /// @throws ContractError for more than kMaxCoordinates coordinates or
   /// kMaxSwitches switches, an axis that is not a unit vector, or an element on
   /// a coordinate that does not exist.
-  Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
+  Joint(Constraint constraint, std::vector<AxisCoordinate> coordinates,
         std::vector<JointElement> elements);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
-  [[nodiscard]] const Hold& hold() const { return parameters_.hold; }
+  [[nodiscard]] const Constraint& constraint() const {
+    return parameters_.constraint;
+  }
   [[nodiscard]] const std::vector<AxisCoordinate>& coordinates() const {
     return parameters_.coordinates;
   }
@@ -47,8 +50,8 @@ class Joint : public WithoutTriggers {
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
                                          const EvaluationTime& now) const;
-  /// The sum of the hold's wrench at the mean and of each element's response
-  /// over the step.
+  /// The sum of the constraint's wrench at the mean and of each element's
+  /// response over the step.
   /// @throws NumericalError as AxisCoordinate does.
   [[nodiscard]] CouplerResponse evaluate_over_step(
       const MotionStep& motion, const CouplerMemory& memory,
@@ -70,9 +73,10 @@ class Joint : public WithoutTriggers {
                                              const CouplerMemory& memory,
                                              const EvaluationTime& now) const;
 
-  [[nodiscard]] std::optional<HoldStiffness> find_hold_stiffness() const;
-  [[nodiscard]] HoldGive find_give(const HoldStiffness& stiffness,
-                                   const RelativeMotion& motion) const;
+  [[nodiscard]] std::optional<ConstraintStiffness> find_constraint_stiffness()
+      const;
+  [[nodiscard]] ConstraintDeflection find_deflection(
+      const ConstraintStiffness& stiffness, const RelativeMotion& motion) const;
 
   /// One for each coordinate.
   [[nodiscard]] std::vector<AxisCoordinate::Kind> reading_kinds() const;

@@ -32,7 +32,7 @@ HeldDirections find_held(JointKind kind, const Vector3& axis) {
       return {Matrix3::Zero(), Matrix3::Zero()};
     case JointKind::ball:
       return {all, Matrix3::Zero()};
-    case JointKind::universal:  // constrains a rotation that turns with M
+    case JointKind::universal:  // constrains a rotation that rotates with M
     case JointKind::fixed:
       break;
   }
@@ -58,9 +58,10 @@ Vector3 find_direction(const Vector3& axis) {
   return axis / length;
 }
 
-UniversalHold make_universal_hold(const Vector3& axis, const Vector3& second,
-                                  const JointParameters& parameters) {
-  return UniversalHold({
+UniversalConstraint make_universal_constraint(
+    const Vector3& axis, const Vector3& second,
+    const JointParameters& parameters) {
+  return UniversalConstraint({
       .axis_F = axis,
       .axis_M = second,
       .translational_stiffness = parameters.translational_stiffness,
@@ -146,13 +147,14 @@ Joint make_joint(JointKind kind, const Vector3& axis_F, const Vector3& second_F,
             std::move(coordinates), std::move(elements)};
   }
   check_parameters(parameters);
-  const UniversalHold hold = make_universal_hold(axis_F, second_F, parameters);
+  const UniversalConstraint constraint =
+      make_universal_constraint(axis_F, second_F, parameters);
   if (parameters.free_damping > 0.0) {
     for (const int i : {0, 1}) {
       elements.push_back({i, Friction({.viscous = parameters.free_damping})});
     }
   }
-  return {hold, std::move(coordinates), std::move(elements)};
+  return {constraint, std::move(coordinates), std::move(elements)};
 }
 
 Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,

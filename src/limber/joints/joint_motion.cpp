@@ -18,7 +18,7 @@ std::vector<double> pad(std::vector<double> values, std::size_t count) {
 
 // Without stiffness it holds nothing.
 bool is_free(const Joint& joint) {
-  const auto held = joint.find_hold_stiffness();
+  const auto held = joint.find_constraint_stiffness();
   return !held || (held->translational == 0.0 && held->rotational == 0.0);
 }
 

@@ -25,11 +25,11 @@ struct JointShape {
   Vector3 second_F = Vector3::UnitX();  ///< unit, of a universal joint [-]
 };
 
-/// What kind of joint a law is, by what it leaves free.
+/// The kind of joint of a law, determined from its free coordinates.
 /// @throws InputError if no kind leaves that free.
 [[nodiscard]] JointShape find_shape(const Joint& joint);
 
-/// Motion of frame M in F at a joint's coordinates, the hold undeformed:
+/// Motion of frame M in F at a joint's coordinates, the constraint undeformed:
 /// revolute, continuous: the angle; prismatic: the distance; planar: distances
 /// along x and y of find_plane_axes, the angle; universal: the angles about
 /// both axes, in this order; ball: roll, pitch, yaw; floating: x, y, z, roll,

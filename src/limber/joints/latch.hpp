@@ -18,7 +18,7 @@ namespace limber::joints {
 ///            time is lost. A latch released before it closes never closes.
 class Latch : public WithoutCoordinates,
               public WithoutCommands,
-              public WithoutHold,
+              public WithoutConstraint,
               public WithoutReadings {
  public:
   /// No release by force or at a time [N or s].

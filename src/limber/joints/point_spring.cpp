@@ -103,12 +103,12 @@ CouplerResponse PointSpring::evaluate_over_step(const MotionStep& motion,
   const double length1 = motion.end.p_FM_F.norm();
   const double length = 0.5 * (length0 + length1);
   const double across = motion.mean.p_FM_F.norm();
-  const double share = across > 0.0 ? across / length : 1.0;
+  const double fraction = across > 0.0 ? across / length : 1.0;
   RelativeMotion line = motion.mean;
-  line.p_FM_F /= share;
-  line.v_FM_F *= share;
+  line.p_FM_F /= fraction;
+  line.v_FM_F *= fraction;
   CouplerResponse response = evaluate(line, mode);
-  response.wrench *= share;
+  response.wrench *= fraction;
   if (!(across > 0.0)) return response;
   const Vector3 direction = motion.mean.p_FM_F / length;
   const double rate = direction.dot(motion.mean.v_FM_F);

@@ -22,7 +22,7 @@ namespace limber::joints {
 class PointSpring : public WithoutTriggers,
                     public WithoutCoordinates,
                     public WithoutCommands,
-                    public WithoutHold {
+                    public WithoutConstraint {
  public:
   struct Parameters {
     double stiffness = 0.0;               ///< k >= 0 [N/m]

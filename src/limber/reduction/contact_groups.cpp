@@ -25,9 +25,9 @@ std::string list_surface_groups(const fem::Mesh& mesh) {
 
 /// The mesh needs no group for it; if it has one of this name, that must be
 /// the same.
-Faces find_skin(const fem::Mesh& mesh) {
+Faces find_mesh_surface(const fem::Mesh& mesh) {
   for (const fem::PhysicalGroup& group : mesh.groups) {
-    if (group.name != kWholeSkin ||
+    if (group.name != kWholeSurface ||
         fem::find_group_faces(mesh, group).size() == mesh.boundary_faces.size())
       continue;
     throw InputError(
@@ -39,7 +39,7 @@ Faces find_skin(const fem::Mesh& mesh) {
 }
 
 Faces find_faces(const fem::Mesh& mesh, const std::string& name) {
-  if (name == kWholeSkin) return find_skin(mesh);
+  if (name == kWholeSurface) return find_mesh_surface(mesh);
   const fem::PhysicalGroup& group = mesh.groups[fem::find_group(mesh, name)];
   Faces faces = fem::find_group_faces(mesh, group);
   if (!faces.empty()) return faces;

@@ -12,7 +12,7 @@
 namespace limber::flexbody {
 
 /// Name of the whole boundary among contact groups.
-inline constexpr std::string_view kWholeSkin = "skin";
+inline constexpr std::string_view kWholeSurface = "skin";
 
 /// A contact group of a recipe, found on its mesh.
 struct ContactGroup {

@@ -226,7 +226,7 @@ std::vector<std::vector<const Sample*>> sort_samples(
   return sorted;
 }
 
-// Share of the flexibility that is the parts' own deformation.
+// Fraction of the flexibility that is the parts' own deformation.
 double find_deformation(const std::vector<std::vector<const Sample*>>& cells,
                         const VectorX& lambda, const MatrixX& Phi,
                         const Vector3& normal) {
@@ -370,9 +370,9 @@ Matrix3X place_corners(const Polygon& polygon, const Frame& frame,
 }  // namespace
 
 std::vector<ContactPart> make_contact_parts(
-    const SkinnedBody& body, const fem::Surface& surface, const Vector3& normal,
-    const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
-    double depth) {
+    const BodyWithSurface& body, const fem::Surface& surface,
+    const Vector3& normal, const ReducedBasis& basis, const MatrixX& Phi,
+    const Vector3& center, double depth) {
   const std::vector<Sample> samples = sample_surface(body.mesh, surface);
   double area = 0.0;
   for (const Sample& s : samples) area += s.area;

@@ -6,7 +6,7 @@
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
-#include "limber/reduction/skinned_body.hpp"
+#include "limber/reduction/body_with_surface.hpp"
 #include "limber/reduction/slices/surface_samples.hpp"
 
 /// Flat surfaces as parts that move as one piece. Part of limber_reduction.
@@ -27,8 +27,8 @@ namespace limber::flexbody {
 /// @param center of mass, mesh frame [m]
 /// @param depth of all parts [m]
 [[nodiscard]] std::vector<ContactPart> make_contact_parts(
-    const SkinnedBody& body, const fem::Surface& surface, const Vector3& normal,
-    const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
-    double depth);
+    const BodyWithSurface& body, const fem::Surface& surface,
+    const Vector3& normal, const ReducedBasis& basis, const MatrixX& Phi,
+    const Vector3& center, double depth);
 
 }  // namespace limber::flexbody

@@ -47,11 +47,11 @@ class PatchMaker {
         tree_.find({Vector3(x - reach), Vector3(x + reach)});
     // cos 60 degrees; less steep ones only where there is nothing else.
     for (const double least : {0.5, 0.0, -1.0}) {
-      std::map<int, double> shares;
+      std::map<int, double> fractions;
       for (const int face : faces)
         add_shares(surface_.faces[index(face)], {x, normal, radius, least},
-                   shares);
-      if (!shares.empty()) return normalise(shares, normal, radius);
+                   fractions);
+      if (!fractions.empty()) return normalise(fractions, normal, radius);
     }
     LIMBER_EXPECT(!"a patch holds a point of its surface");
     return {};
@@ -66,7 +66,7 @@ class PatchMaker {
   };
 
   void add_shares(const fem::SurfaceFace& face, const Place& place,
-                  std::map<int, double>& shares) {
+                  std::map<int, double>& fractions) {
     const Matrix3X x = mesh_.x(Eigen::all, face.nodes);
     const fem::FaceTable& rule = find_rule(face, place.radius);
     const Matrix3X points = x * rule.shape;
@@ -83,9 +83,9 @@ class PatchMaker {
       pressure[q] = rule.weights[q] * size * std::sqrt(1.0 - r * r);
     }
     if (pressure.isZero(0.0)) return;
-    const VectorX share = rule.shape * pressure;
+    const VectorX fraction = rule.shape * pressure;
     for (std::size_t k = 0; k < face.nodes.size(); ++k)
-      shares[face.nodes[k]] += share[static_cast<Eigen::Index>(k)];
+      fractions[face.nodes[k]] += fraction[static_cast<Eigen::Index>(k)];
   }
 
   /// So fine that four cells lie across the patch's radius.
@@ -107,12 +107,14 @@ class PatchMaker {
         .first->second;
   }
 
-  static ContactPatch normalise(const std::map<int, double>& shares,
+  static ContactPatch normalise(const std::map<int, double>& fractions,
                                 const Vector3& normal, double radius) {
-    ContactPatch patch{
-        normal, radius, {}, VectorX(static_cast<Eigen::Index>(shares.size()))};
-    for (const auto& [node, share] : shares) {
-      patch.weights[static_cast<Eigen::Index>(patch.nodes.size())] = share;
+    ContactPatch patch{normal,
+                       radius,
+                       {},
+                       VectorX(static_cast<Eigen::Index>(fractions.size()))};
+    for (const auto& [node, fraction] : fractions) {
+      patch.weights[static_cast<Eigen::Index>(patch.nodes.size())] = fraction;
       patch.nodes.push_back(node);
     }
     patch.weights /= patch.weights.sum();

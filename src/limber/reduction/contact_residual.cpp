@@ -11,20 +11,20 @@ namespace {
 /// The part of loads on patches outside of a basis and rigid motion.
 class Leftover {
  public:
-  Leftover(const SkinnedBody& skinned, const ReducedBasis& basis)
-      : skinned_(skinned),
+  Leftover(const BodyWithSurface& surface_body, const ReducedBasis& basis)
+      : surface_body_(surface_body),
         basis_(basis),
-        answered_(
-            fem::multiply_stiffness(skinned.body.support.matrices, basis.Phi) *
-            basis.lambda.cwiseInverse().asDiagonal()) {}
+        answered_(fem::multiply_stiffness(surface_body.body.support.matrices,
+                                          basis.Phi) *
+                  basis.lambda.cwiseInverse().asDiagonal()) {}
 
   /// F of patches [begin, end) on the free degrees of freedom; forces on
   /// clamped nodes act on the clamp.
   [[nodiscard]] MatrixX list_loads(const std::vector<ContactPatch>& patches,
                                    std::size_t begin, std::size_t end) const {
-    MatrixX loads =
-        MatrixX::Zero(3 * static_cast<Eigen::Index>(skinned_.mesh.node_count()),
-                      static_cast<Eigen::Index>(end - begin));
+    MatrixX loads = MatrixX::Zero(
+        3 * static_cast<Eigen::Index>(surface_body_.mesh.node_count()),
+        static_cast<Eigen::Index>(end - begin));
     for (std::size_t p = begin; p < end; ++p) {
       const ContactPatch& patch = patches[p];
       for (std::size_t i = 0; i < patch.nodes.size(); ++i)
@@ -37,13 +37,13 @@ class Leftover {
 
   /// The same of loads on all nodes, 3N x k.
   [[nodiscard]] MatrixX list_loads(const MatrixX& loads) const {
-    const MatrixX F = skinned_.put_on_free(loads);
-    return skinned_.body.inverse.project_load(
+    const MatrixX F = surface_body_.put_on_free(loads);
+    return surface_body_.body.inverse.project_load(
         F - answered_ * (basis_.Phi.transpose() * F));
   }
 
  private:
-  const SkinnedBody& skinned_;
+  const BodyWithSurface& surface_body_;
   const ReducedBasis& basis_;
   MatrixX answered_;  // K Phi Lambda^-1
 };
@@ -64,15 +64,15 @@ MatrixX multiply_flexibility(const ElasticBody& body, const MatrixX& F) {
 
 }  // namespace
 
-VectorX calc_residual_flexibility(const SkinnedBody& skinned,
+VectorX calc_residual_flexibility(const BodyWithSurface& surface_body,
                                   const ReducedBasis& basis,
                                   const std::vector<ContactPatch>& patches,
                                   const std::string& what,
                                   const Progress& progress) {
   // More columns are solved at once faster, but need more memory.
   constexpr std::size_t kBlock = 32;
-  const ElasticBody& body = skinned.body;
-  const Leftover leftover(skinned, basis);
+  const ElasticBody& body = surface_body.body;
+  const Leftover leftover(surface_body, basis);
   VectorX residual(static_cast<Eigen::Index>(patches.size()));
   for (std::size_t begin = 0; begin < patches.size(); begin += kBlock) {
     report(progress, what,
@@ -89,13 +89,14 @@ VectorX calc_residual_flexibility(const SkinnedBody& skinned,
   return residual;
 }
 
-MatrixX calc_residual_matrix(const SkinnedBody& skinned,
+MatrixX calc_residual_matrix(const BodyWithSurface& surface_body,
                              const ReducedBasis& basis, const MatrixX& loads) {
-  return multiply_flexibility(skinned.body,
-                              Leftover(skinned, basis).list_loads(loads));
+  return multiply_flexibility(surface_body.body,
+                              Leftover(surface_body, basis).list_loads(loads));
 }
 
-double calc_hertz_share(const fem::ElasticMaterial& material, double radius) {
+double calc_hertz_fraction(const fem::ElasticMaterial& material,
+                           double radius) {
   const double nu = material.poisson_ratio;
   return 3.0 * (1.0 - nu * nu) / (5.0 * material.youngs_modulus * radius);
 }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/reduction/body_with_surface.hpp"
 #include "limber/reduction/contact_patches.hpp"
-#include "limber/reduction/skinned_body.hpp"
 
 /// Residual flexibility of a basis. Part of limber_reduction.
 namespace limber::flexbody {
@@ -21,13 +21,13 @@ namespace limber::flexbody {
 ///            difference of two large flexibilities loses its digits
 /// @param basis on the free nodes; @param what for progress
 [[nodiscard]] VectorX calc_residual_flexibility(
-    const SkinnedBody& body, const ReducedBasis& basis,
+    const BodyWithSurface& body, const ReducedBasis& basis,
     const std::vector<ContactPatch>& patches, const std::string& what = {},
     const Progress& progress = {});
 
 /// The same for all pairs of a few loads, symmetric and positive semidefinite:
 /// R_ij = F_i^T K^+ F_j. @param loads 3N x k on all nodes of the mesh [-]
-[[nodiscard]] MatrixX calc_residual_matrix(const SkinnedBody& body,
+[[nodiscard]] MatrixX calc_residual_matrix(const BodyWithSurface& body,
                                            const ReducedBasis& basis,
                                            const MatrixX& loads);
 
@@ -38,7 +38,7 @@ namespace limber::flexbody {
 /// Equation   3 / (5 E' b), E' = E / (1 - nu^2)
 /// Source     u = pi p_0 (2 b^2 - r^2) / (4 E' b) [@johnson1985, sec. 3.4],
 ///            of which the mean of r^2 under the pressure is 2 b^2 / 5
-[[nodiscard]] double calc_hertz_share(const fem::ElasticMaterial& material,
-                                      double radius);
+[[nodiscard]] double calc_hertz_fraction(const fem::ElasticMaterial& material,
+                                         double radius);
 
 }  // namespace limber::flexbody

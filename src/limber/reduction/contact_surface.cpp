@@ -17,9 +17,9 @@
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/slices/nodal_pieces.hpp"
 #include "limber/reduction/slices/roll_off.hpp"
-#include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_flexibility.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
+#include "limber/reduction/slices/surface_division.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -33,8 +33,9 @@ Vector3 find_centre(const fem::Surface& surface) {
 }
 
 /// Of corners by solution, of the points between them as their mean. Hertz's
-/// share is in what solid elements answer, not in beams' and shells' answer.
-VectorX find_residual(const SkinnedBody& body, const ReducedBasis& basis,
+/// contribution is in the response of solid elements, not in that of beams and
+/// shells.
+VectorX find_residual(const BodyWithSurface& body, const ReducedBasis& basis,
                       const fem::Surface& surface,
                       std::vector<ContactPatch> patches,
                       const ContactGroup& group, const Progress& progress) {
@@ -49,7 +50,7 @@ VectorX find_residual(const SkinnedBody& body, const ReducedBasis& basis,
   for (Eigen::Index p = 0; p < corners; ++p) {
     const auto at = static_cast<std::size_t>(p);
     if (body.has_depth(surface.points[at].node))
-      residual[p] -= calc_hertz_share(group.material, patches[at].radius);
+      residual[p] -= calc_hertz_fraction(group.material, patches[at].radius);
   }
   for (Eigen::Index p = corners; p < residual.size(); ++p) {
     const std::array<int, 2>& ends =
@@ -89,24 +90,25 @@ BareSurface make_bare_surface(const fem::Mesh& mesh, const ContactGroup& group,
   return bare;
 }
 
-// Of each mode the share along the axis along which it moves the slice most,
+// Of each mode the fraction along the axis along which it moves the slice most,
 // of all modes' flexibility there.
 void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
                     ContactSlice& slice) {
   const MatrixX along =
       axes.transpose() * slice.motion_B.topLeftCorner(3, lambda.size());
   MatrixX squares(3, lambda.size());
-  MatrixX shares(3, lambda.size());
+  MatrixX fractions(3, lambda.size());
   for (int k = 0; k < 3; ++k) {
     const VectorX flexibility =
         along.row(k).transpose().cwiseAbs2().cwiseQuotient(lambda);
     squares.row(k) = find_roll_off(flexibility, lambda);
-    shares.row(k) = flexibility / std::max(flexibility.sum(),
-                                           std::numeric_limits<double>::min());
+    fractions.row(k) =
+        flexibility /
+        std::max(flexibility.sum(), std::numeric_limits<double>::min());
   }
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {
     int axis = 0;
-    (void)shares.col(i).maxCoeff(&axis);
+    (void)fractions.col(i).maxCoeff(&axis);
     const double square = squares(axis, i);
     const Vector3 moved = slice.motion_B.col(i).head<3>();
     slice.flexibility_B +=
@@ -116,18 +118,18 @@ void roll_off_slice(const VectorX& lambda, const Matrix3& axes,
 }
 
 std::vector<ContactSlice> make_contact_slices(
-    const SkinnedBody& body, const fem::Surface& surface,
+    const BodyWithSurface& body, const fem::Surface& surface,
     const fem::ElasticMaterial& material, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center) {
   const std::vector<SurfaceSample> samples = sample_surface(body.mesh, surface);
   const double nu = material.poisson_ratio;
   const double modulus = material.youngs_modulus / (1.0 - nu * nu);
-  const SkinDivision division =
-      divide_skin(samples, basis.lambda, Phi, modulus, kMostSlices);
+  const SurfaceDivision division =
+      divide_surface(samples, basis.lambda, Phi, modulus, kMostSlices);
   const Eigen::Index nodes = body.mesh.x.cols();
   MatrixX loads(3 * nodes, 3 * std::ssize(division.slices));
   std::vector<ContactSlice> slices;
-  for (const SkinSlice& slice : division.slices) {
+  for (const SurfaceSlice& slice : division.slices) {
     const SliceMotion motion(slice.samples);
     loads.middleCols<3>(3 * std::ssize(slices)) = motion.find_loads(nodes);
     slices.push_back(
@@ -151,7 +153,7 @@ std::vector<ContactSlice> make_contact_slices(
   return slices;
 }
 
-ContactSurface make_contact_surface(const SkinnedBody& body,
+ContactSurface make_contact_surface(const BodyWithSurface& body,
                                     const ContactGroup& group,
                                     const ReducedBasis& basis,
                                     const MatrixX& Phi, const Vector3& center,
@@ -203,7 +205,8 @@ FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
   full.means.first.push_back(0);
   for (Eigen::Index p = 0; p < n; ++p) {
     const ContactPatch& patch = bare.patches[static_cast<std::size_t>(p)];
-    full.surface.residual[p] = -calc_hertz_share(group.material, patch.radius);
+    full.surface.residual[p] =
+        -calc_hertz_fraction(group.material, patch.radius);
     full.means.nodes.insert(full.means.nodes.end(), patch.nodes.begin(),
                             patch.nodes.end());
     full.means.weights.insert(full.means.weights.end(), patch.weights.begin(),
@@ -231,7 +234,7 @@ std::vector<ContactSurface> make_contact_surfaces(
 }
 
 std::vector<ContactSurface> make_contact_surfaces(
-    const SkinnedBody& body, const std::vector<ContactGroup>& groups,
+    const BodyWithSurface& body, const std::vector<ContactGroup>& groups,
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     const Progress& progress) {
   std::vector<ContactSurface> surfaces;

@@ -7,10 +7,11 @@
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/reduction/body_with_surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
-#include "limber/reduction/skinned_body.hpp"
 
-/// Surfaces of a body that may touch others. Part of limber_reduction.
+/// Surfaces of a body that may be in contact with others. Part of
+/// limber_reduction.
 namespace limber::flexbody {
 
 /// The surfaces of the recipe's contact groups.
@@ -21,9 +22,9 @@ namespace limber::flexbody {
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress);
 
-/// The surfaces of groups. @param Phi 3N x m rows of the skin's nodes
+/// The surfaces of groups. @param Phi 3N x m rows of the surface's nodes
 [[nodiscard]] std::vector<ContactSurface> make_contact_surfaces(
-    const SkinnedBody& body, const std::vector<ContactGroup>& groups,
+    const BodyWithSurface& body, const std::vector<ContactGroup>& groups,
     const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
     const Progress& progress);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -30,7 +30,7 @@ void check(const MeshedBody& body, const Friction& friction) {
 fem::SparseMatrix combine(const MeshedBody& body, const Friction& friction) {
   fem::SparseMatrix drag = friction.mass_rate * body.M_s;
   if (friction.surface > 0.0)
-    drag += friction.surface * fem::assemble_skin(body.mesh);
+    drag += friction.surface * fem::assemble_surface_matrix(body.mesh);
   return drag;
 }
 
@@ -42,7 +42,7 @@ fem::SparseMatrix make_drag(const MeshedBody& body, const Friction& friction) {
     throw InputError(fmt::format(
         "{}: friction without damping: mass_rate and surface are 0, so nothing "
         "resists rigid motion and no speed is steady (stiffness_time resists "
-        "deformation alone). Expected one of the two above 0.",
+        "only deformation). Expected one of the two above 0.",
         body.mesh.source));
   return combine(body, friction);
 }

@@ -6,8 +6,8 @@
 namespace limber::flexbody {
 
 /// Damping of a body: D = mass_rate M + stiffness_time K + surface S, with S
-/// from fem::assemble_skin. The stiffness part does not resist rigid motion,
-/// and so no steady motion.
+/// from fem::assemble_surface_matrix. The stiffness part does not resist rigid
+/// motion, and so no steady motion.
 struct Friction {
   double mass_rate = 0.0;       ///< >= 0, Rayleigh's alpha [1/s]
   double stiffness_time = 0.0;  ///< >= 0, Rayleigh's beta [s]

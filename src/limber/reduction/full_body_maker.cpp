@@ -162,15 +162,15 @@ void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
   if (key.empty()) return;
   if (content_key(recipe, fem::find_mesh_content(mesh)) == key) return;
   throw InputError(fmt::format(
-      "{}: it gave two different meshes, one for the reduced body and one for "
-      "level full. Did it change meanwhile, or does it ask for the clock? Save "
-      "its mesh as .msh, and name that.",
+      "{}: it produced two different meshes, one for the reduced body and one "
+      "for level full. Did it change in between, or does it depend on the "
+      "time? Save its mesh as .msh and use that.",
       recipe.mesh.file.string()));
 }
 
 // Implicit steps and equilibria need factors, one or more each.
-void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
-                  const Progress& progress) {
+void report_factors(const std::string& name, const fem::SparseMatrix& M_s,
+                    const Progress& progress) {
   constexpr Eigen::Index kMany = 10000;  // nodes; fewer are always fast
   constexpr double kLong = 5.0;          // s, of many
   if (!progress || M_s.cols() < kMany) return;
@@ -190,10 +190,10 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
                                                const Progress& progress,
                                                const ReducedBody* reduced) {
   if (is_node_model(recipe.mesh))
-    throw InputError(fmt::format(
-        "{}: level full computes with a mesh's solid elements, of which "
-        "matrices, beams and shells have none. Use level coupled",
-        recipe.mesh.file.string()));
+    throw InputError(
+        fmt::format("{}: level full needs the solid elements of a mesh; "
+                    "matrices, beams and shells have none. Use level coupled",
+                    recipe.mesh.file.string()));
   fem::Mesh mesh = read_source(recipe.mesh, progress).mesh;
   if (reduced != nullptr) {
     require_same_mesh(recipe, mesh, reduced->content_key);
@@ -202,7 +202,7 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   const std::vector<int> held = find_clamped_nodes(mesh, recipe);
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
   const fem::SparseMatrix M_s = fem::assemble(mesh, materials, progress).M_s;
-  tell_factors(recipe.name, M_s, progress);
+  report_factors(recipe.name, M_s, progress);
   const Vector3 center = fem::calc_mass_properties(M_s, mesh.x).center;
   const Matrix3X x_B = mesh.x.colwise() - center;
   std::vector<FullContactSurface> surfaces =

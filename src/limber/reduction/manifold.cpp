@@ -16,7 +16,7 @@
 namespace limber::flexbody {
 namespace {
 
-// Strains of this share of the largest that their modes could have are
+// Strains of this fraction of the largest that their modes could have are
 // round-off, or vanish by symmetry.
 constexpr double kNoStrain = 1e-9;
 
@@ -60,7 +60,7 @@ MatrixX make_strains(const fem::SecondOrderTerms& terms,
   return Q;
 }
 
-// Self-strains count from this share of the linear energy of their modes
+// Self-strains count from this fraction of the linear energy of their modes
 // on, where these rotate or strain as much at most, root-mean-square.
 // Bending beyond that strain has an energy of fourth degree, which
 // displacements of third degree would remove: without them a slender bar
@@ -80,7 +80,7 @@ VectorX find_pair_factors(Eigen::Index p) {
 }
 
 // Products where their modes are at the reference, over the root of the linear
-// energies there: energies of pairs times their squares are shares of these.
+// energies there: energies of pairs times their squares are fractions of these.
 VectorX find_pair_scales(const fem::MeanDeformation& mean,
                          const VectorX& lambda) {
   const auto find_scale = [&](Eigen::Index k) {
@@ -98,10 +98,10 @@ VectorX find_pair_scales(const fem::MeanDeformation& mean,
   return scale;
 }
 
-std::vector<int> choose_pairs(const VectorX& shares) {
+std::vector<int> choose_pairs(const VectorX& fractions) {
   std::vector<int> chosen;
-  for (int pair = 0; pair < shares.size(); ++pair) {
-    if (shares[pair] > kLeastSelfEnergy) chosen.push_back(pair);
+  for (int pair = 0; pair < fractions.size(); ++pair) {
+    if (fractions[pair] > kLeastSelfEnergy) chosen.push_back(pair);
   }
   return chosen;
 }
@@ -109,11 +109,11 @@ std::vector<int> choose_pairs(const VectorX& shares) {
 // Rows whose squares add up to the energy W of products, significant ones only.
 // @param scale of the products
 MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
-  const auto [shares, shapes] = dense::find_eigenpairs(
+  const auto [fractions, shapes] = dense::find_eigenpairs(
       MatrixX(scale.asDiagonal() * W * scale.asDiagonal()));
-  const Eigen::Index count =
-      std::min<Eigen::Index>((shares.array() > kLeastSelfEnergy).count(), most);
-  return shares.tail(count).cwiseSqrt().asDiagonal() *
+  const Eigen::Index count = std::min<Eigen::Index>(
+      (fractions.array() > kLeastSelfEnergy).count(), most);
+  return fractions.tail(count).cwiseSqrt().asDiagonal() *
          shapes.rightCols(count).transpose() *
          scale.cwiseInverse().asDiagonal();
 }
@@ -171,7 +171,7 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
   if (paired.size() > QuadraticStrain::kMostPaired) {
     throw InputError(
         fmt::format("body '{}': {} of its modes rotate more than they strain; "
-                    "level nonlinear takes at most {}. Take fewer modes",
+                    "level nonlinear takes at most {}. Use fewer modes",
                     recipe.name, paired.size(), QuadraticStrain::kMostPaired));
   }
   const MatrixX Phi_P = Phi(Eigen::all, paired);

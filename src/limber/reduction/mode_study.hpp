@@ -11,7 +11,7 @@
 
 namespace limber::flexbody {
 
-/// Share of each mode in one load case; docs/theory/choosing.md.
+/// Fraction of each mode in one load case; docs/theory/choosing.md.
 struct LoadCaseStudy {
   std::string name;
   VectorX effective_mass;  ///< the report's, m [kg^1/2 N s^2]
@@ -28,7 +28,7 @@ struct BaseMotionStudy {
   Vector3 total = Vector3::Zero();  ///< over all modes: of free nodes [kg]
 };
 
-/// A body's modes and their shares of loads and base motion.
+/// A body's modes and their fractions of loads and base motion.
 struct ModeStudy {
   std::size_t mesh_nodes = 0;           ///< count
   std::size_t mesh_elements = 0;        ///< count

@@ -9,7 +9,7 @@
 namespace limber::flexbody {
 
 /// Validity of linear theory. It neglects H^T H / 2 of the Green strain: a
-/// share kLimit of the linear part where the displacement gradient H is 2
+/// fraction kLimit of the linear part where the displacement gradient H is 2
 /// kLimit.
 struct LinearTrust {
   static constexpr double kLimit = 0.1;  ///< of each value below [-, rad]

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 #include "limber/reduction/state_balance.hpp"
 
 namespace limber::flexbody {
@@ -39,7 +39,7 @@ Vector3 find_drag_center(const MeshedBody& body,
   throw InputError(fmt::format(
       "{}: the load, {:.6g} N, has a moment ({:.4g}, {:.4g}, {:.4g}) N m about "
       "the centre of {} at ({:.6g}, {:.6g}, {:.6g}) m, which nothing balances: "
-      "the body would turn. Expected a load whose line passes through it.",
+      "the body would rotate. Expected a load whose line passes through it.",
       body.mesh.source, net.force.norm(), moment[0], moment[1], moment[2], name,
       center[0], center[1], center[2]));
 }

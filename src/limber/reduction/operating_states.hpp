@@ -25,7 +25,7 @@ namespace limber::flexbody {
 ///
 /// Equation   K x = F - D v, sum(F - D v) = 0
 /// @throws InputError without a load or damping, for a clamped body, and for
-/// a load whose line of action misses the centre of drag: it would turn the
+/// a load whose line of action misses the centre of drag: it would rotate the
 /// body.
 [[nodiscard]] OperatingState find_drifting_state(const MeshedBody& body,
                                                  const Matrix3X& load,
@@ -71,7 +71,7 @@ struct SlowChange {
   /// The state after a time t >= 0 [s].
   [[nodiscard]] OperatingState at(double t, const MeshedBody& body) const;
 };
-/// @throws InputError as find_drifting_state, and if the load turns the body.
+/// @throws InputError as find_drifting_state, and if the load rotates the body.
 [[nodiscard]] SlowChange find_slow_change(const MeshedBody& body,
                                           const Matrix3X& load,
                                           const Friction& friction);

@@ -138,7 +138,7 @@ std::vector<Interface> find_own(const fem::CutMesh& cut, int index_of_piece,
 }
 
 bool has_faces(const fem::Mesh& mesh, const std::string& group) {
-  if (group == kWholeSkin) return !mesh.boundary_faces.empty();
+  if (group == kWholeSurface) return !mesh.boundary_faces.empty();
   for (const fem::PhysicalGroup& known : mesh.groups) {
     if (known.name == group) return !fem::find_group_faces(mesh, known).empty();
   }

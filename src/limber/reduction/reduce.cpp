@@ -173,18 +173,18 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
   return mesh;
 }
 
-void add_skin(const fem::ModelSkin& skin, Digest& digest) {
-  for (const fem::ElementBlock& block : skin.mesh.blocks) {
+void add_surface(const fem::ModelSurface& mesh_surface, Digest& digest) {
+  for (const fem::ElementBlock& block : mesh_surface.mesh.blocks) {
     digest.add(block.element->gmsh_type);
     for (const int node : block.nodes) digest.add(node);
     for (const int region : block.regions) digest.add(region);
   }
-  for (const SolidMaterial& material : skin.materials) {
+  for (const SolidMaterial& material : mesh_surface.materials) {
     digest.add(material.youngs_modulus);
     digest.add(material.poisson_ratio);
   }
-  for (const int base : skin.bases) digest.add(base);
-  for (const fem::ModelSkin::Side side : skin.sides)
+  for (const int base : mesh_surface.bases) digest.add(base);
+  for (const fem::ModelSurface::Side side : mesh_surface.sides)
     digest.add(static_cast<int>(side));
 }
 
@@ -220,7 +220,7 @@ std::string find_content(const MatrixPart& part) {
   digest.add(system.triangles.size());
   for (const auto& nodes : system.triangles)
     for (const int node : nodes) digest.add(node);
-  add_skin(system.skin, digest);
+  add_surface(system.mesh_surface, digest);
   return digest.text();
 }
 

@@ -112,13 +112,13 @@ void check_net_force(const MeshedBody& body, const Matrix3X& load) {
       body.mesh.source, net[0], net[1], net[2]));
 }
 
-/// @throws InputError if nothing turns the body.
+/// @throws InputError if nothing rotates the body.
 void check_torque(const MeshedBody& body, const Matrix3X& load, double torque) {
   const double size = load.colwise().norm().sum() * body.mesh.size().maxCoeff();
   if (std::abs(torque) > 1e-12 * size) return;
   throw InputError(fmt::format(
       "{}: the load has no torque about the spin axis ({:.3g} N m), so nothing "
-      "keeps the body turning against friction. Expected one other than 0.",
+      "keeps the body rotating against friction. Expected one other than 0.",
       body.mesh.source, torque));
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 
 namespace limber::flexbody {
 

@@ -16,7 +16,7 @@
 namespace limber::flexbody {
 namespace {
 
-using Side = fem::ModelSkin::Side;
+using Side = fem::ModelSurface::Side;
 
 /// A set and a side of its shells.
 std::pair<std::string, Side> split_side(const MatrixSystem& system,
@@ -34,16 +34,17 @@ std::pair<std::string, Side> split_side(const MatrixSystem& system,
 std::vector<fem::BoundaryFace> find_set_faces(const MatrixSystem& system,
                                               const fem::Mesh& mesh,
                                               const std::string& name) {
-  if (name == kWholeSkin) return mesh.boundary_faces;
+  if (name == kWholeSurface) return mesh.boundary_faces;
   const auto [set, side] = split_side(system, name);
   const std::vector<int> nodes = find_matrix_nodes(system, set);
   std::vector<fem::BoundaryFace> faces;
   for (const fem::BoundaryFace& face : mesh.boundary_faces) {
     const std::vector<int> own = fem::face_nodes(mesh, face);
     if (std::ranges::all_of(own, [&, on = side](int node) {
-          return std::ranges::binary_search(nodes,
-                                            system.skin.bases[index(node)]) &&
-                 (on == Side::none || system.skin.sides[index(node)] == on);
+          return std::ranges::binary_search(
+                     nodes, system.mesh_surface.bases[index(node)]) &&
+                 (on == Side::none ||
+                  system.mesh_surface.sides[index(node)] == on);
         }))
       faces.push_back(face);
   }
@@ -58,14 +59,14 @@ std::vector<fem::BoundaryFace> find_set_faces(const MatrixSystem& system,
 
 /// What of a structure the groups are.
 struct StructureContact {
-  fem::Mesh mesh;  // of the skin, with its boundary
+  fem::Mesh mesh;  // of the surface, with its boundary
   std::vector<ContactGroup> groups;
 };
 
 StructureContact find_contact(const MatrixSystem& system,
                               const std::vector<std::string>& names) {
   StructureContact contact;
-  contact.mesh = system.skin.mesh;
+  contact.mesh = system.mesh_surface.mesh;
   fem::find_boundary(contact.mesh);
   for (const std::string& name : names) {
     if (std::ranges::count(names, name) > 1)
@@ -74,7 +75,7 @@ StructureContact find_contact(const MatrixSystem& system,
                       system.source, name));
     contact.groups.push_back(make_contact_group(
         contact.mesh, name, find_set_faces(system, contact.mesh, name),
-        system.skin.materials));
+        system.mesh_surface.materials));
   }
   return contact;
 }
@@ -98,9 +99,9 @@ SurfaceMaker make_structure_surfaces(
   return [part, contact, progress](
              const MatrixBody& body, const ReducedBasis& basis,
              const MatrixX& fields, const Vector3& center) {
-    return make_contact_surfaces({body, part->system.skin, contact->mesh},
-                                 contact->groups, basis,
-                                 take_translations(fields), center, progress);
+    return make_contact_surfaces(
+        {body, part->system.mesh_surface, contact->mesh}, contact->groups,
+        basis, take_translations(fields), center, progress);
   };
 }
 

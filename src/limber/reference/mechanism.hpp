@@ -10,7 +10,7 @@
 #include "limber/joints/bushing.hpp"
 #include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/point_spring.hpp"
-#include "limber/joints/universal_hold.hpp"
+#include "limber/joints/universal_constraint.hpp"
 
 /// A tree of rigid bodies described independently of our equations, for any
 /// rigid-body program. Plain values.
@@ -68,8 +68,8 @@ struct UniversalElement {
   std::string name;
   MechanismFrame F;
   MechanismFrame M;
-  joints::UniversalHold::Parameters law;
-  int joint_of = kGround;  ///< index, as of a BushingElement
+  joints::UniversalConstraint::Parameters law;
+  int joint_of = kGround;  ///< index, as for a BushingElement
 };
 
 /// Linear spring and damper along a coordinate of M in F. Full turns are not

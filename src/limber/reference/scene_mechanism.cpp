@@ -51,11 +51,11 @@ Mobilizer find_mobilizer(JointKind kind) {
 }
 
 [[noreturn]] void refuse(const std::string& who, const char* why) {
-  throw InputError(fmt::format(
-      "{} {}; what is compared are joints, linear springs and viscous friction "
-      "in them, bushings without coupling of translation and rotation, and "
-      "linear springs between points",
-      who, why));
+  throw InputError(
+      fmt::format("{} {}; verify supports only joints, linear springs and "
+                  "viscous friction in them, bushings without coupling of "
+                  "translation and rotation, and linear springs between points",
+                  who, why));
 }
 
 bool is_linear(const joints::SpringCurve::Parameters& curve) {
@@ -265,13 +265,14 @@ class Translator {
     const MechanismFrame M{joint.child, Pose{}};
     const int joint_of =
         joint.kind == JointKind::floating ? kGround : joint.child;
-    if (const auto* bushing = std::get_if<joints::Bushing>(&law.hold())) {
+    if (const auto* bushing = std::get_if<joints::Bushing>(&law.constraint())) {
       mechanism_.bushings.push_back(
           {F, M, bushing->parameters(), turn_z_to(joint.axis_J).R, joint_of});
     } else {
       mechanism_.universals.push_back(
           {joint.name, F, M,
-           std::get<joints::UniversalHold>(law.hold()).parameters(), joint_of});
+           std::get<joints::UniversalConstraint>(law.constraint()).parameters(),
+           joint_of});
     }
     for (const joints::JointElement& acting : law.elements()) {
       CoordinateElement element = find_linear(acting.law, joint.name);

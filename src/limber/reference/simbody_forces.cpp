@@ -109,7 +109,7 @@ SimTK::Real ChordalBushing::calcPotentialEnergy(const State& state) const {
 }
 
 CrossBushing::CrossBushing(const SimbodyFrame& F, const SimbodyFrame& M,
-                           const joints::UniversalHold::Parameters& law)
+                           const joints::UniversalConstraint::Parameters& law)
     : F_(F), M_(M), law_(law) {}
 
 void CrossBushing::calcForce(const State& state,

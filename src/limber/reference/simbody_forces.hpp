@@ -47,7 +47,7 @@ class ChordalBushing : public SimTK::Force::Custom::Implementation {
 class CrossBushing : public SimTK::Force::Custom::Implementation {
  public:
   CrossBushing(const SimbodyFrame& F, const SimbodyFrame& M,
-               const joints::UniversalHold::Parameters& law);
+               const joints::UniversalConstraint::Parameters& law);
 
   void calcForce(const SimTK::State& state,
                  SimTK::Vector_<SimTK::SpatialVec>& body_forces,
@@ -59,7 +59,7 @@ class CrossBushing : public SimTK::Force::Custom::Implementation {
  private:
   SimbodyFrame F_;
   SimbodyFrame M_;
-  joints::UniversalHold::Parameters law_;
+  joints::UniversalConstraint::Parameters law_;
 };
 
 /// Linear spring and damper along a coordinate of M in F.

@@ -157,7 +157,7 @@ joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
   const Matrix3 along = z * z.transpose();
   const Matrix3 across = Matrix3::Identity() - along;
   const bool slides = mobilizer == Mobilizer::slider;
-  const bool turns =
+  const bool rotates =
       mobilizer == Mobilizer::pin || mobilizer == Mobilizer::planar;
   joints::Bushing::Parameters left;
   const Matrix3& Ct = element.law.translational_damping;
@@ -165,7 +165,7 @@ joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
   if (mobilizer == Mobilizer::planar) {
     left.translational_damping = across * Ct * across;
   }
-  if (turns) {
+  if (rotates) {
     left.rotational_damping = along * element.law.rotational_damping * along;
   }
   if (mobilizer == Mobilizer::ball) {
@@ -270,10 +270,11 @@ void SimbodyModel::add_bushing(const BushingElement& element) {
 void SimbodyModel::add_universal(const UniversalElement& element) {
   if (joints_ == JointModel::ideal) return;
   if (joints_ == JointModel::linear_bushings) {
-    throw InputError(fmt::format(
-        "universal joint '{}' has no linear bushing: what it holds turns with "
-        "both of its sides; compare with --joints bushings or ideal",
-        element.name));
+    throw InputError(
+        fmt::format("universal joint '{}' has no linear bushing: the body "
+                    "between its axes rotates with both of its sides; compare "
+                    "with --joints bushings or ideal",
+                    element.name));
   }
   couplers_.push_back(SimTK::Force::Custom(
       forces_,

@@ -30,14 +30,14 @@ joints::Bushing stiffen(const joints::Bushing& bushing, double factor) {
   return joints::Bushing(p);
 }
 
-joints::UniversalHold stiffen(const joints::UniversalHold& hold,
-                              double factor) {
-  joints::UniversalHold::Parameters p = hold.parameters();
+joints::UniversalConstraint stiffen(
+    const joints::UniversalConstraint& constraint, double factor) {
+  joints::UniversalConstraint::Parameters p = constraint.parameters();
   p.translational_stiffness *= factor;
   p.rotational_stiffness *= factor;
   p.translational_damping *= std::sqrt(factor);
   p.rotational_damping *= std::sqrt(factor);
-  return joints::UniversalHold(p);
+  return joints::UniversalConstraint(p);
 }
 
 }  // namespace
@@ -49,11 +49,11 @@ dynamics::SystemModel stiffen_joints(dynamics::SystemModel model,
     const auto* joint = std::get_if<joints::Joint>(&coupler.law);
     if (joint == nullptr) continue;
     coupler.law = std::visit(
-        [&](const auto& hold) {
-          return joints::Joint(stiffen(hold, factor), joint->coordinates(),
-                               joint->elements());
+        [&](const auto& constraint) {
+          return joints::Joint(stiffen(constraint, factor),
+                               joint->coordinates(), joint->elements());
         },
-        joint->hold());
+        joint->constraint());
   }
   return model;
 }

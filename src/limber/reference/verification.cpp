@@ -158,7 +158,7 @@ void check_factors(const std::vector<double>& factors) {
       fmt::join(factors, ", ")));
 }
 
-double find_share(double part, double whole) {
+double find_fraction(double part, double whole) {
   return whole > 0.0 ? part / whole : 0.0;
 }
 
@@ -166,10 +166,10 @@ double find_share(double part, double whole) {
 
 double find_relative(const Magnitudes& difference, const Magnitudes& motion) {
   return std::max(
-      {find_share(difference.position, motion.position),
-       find_share(difference.rotation, motion.rotation),
-       find_share(difference.velocity, motion.velocity),
-       find_share(difference.angular_velocity, motion.angular_velocity)});
+      {find_fraction(difference.position, motion.position),
+       find_fraction(difference.rotation, motion.rotation),
+       find_fraction(difference.velocity, motion.velocity),
+       find_fraction(difference.angular_velocity, motion.angular_velocity)});
 }
 
 Agreement compare(const std::vector<Snapshot>& reference,

@@ -228,7 +228,7 @@ CheckpointRecord read_checkpoint(const std::filesystem::path& file) {
     return read_record(file);
   } catch (const InputError& error) {
     throw InputError(fmt::format(
-        "the checkpoint '{}' cannot be gone on from: {}; run without --resume",
+        "cannot resume from the checkpoint '{}': {}; run without --resume",
         file.string(), error.what()));
   }
 }

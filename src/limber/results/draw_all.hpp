@@ -17,7 +17,7 @@ void add_charts(std::vector<GnuplotScript> charts,
                 std::vector<Picture>& pictures);
 
 /// Draws pictures, as many at a time as there are cores. Stops after three
-/// failures, since further ones would fail alike.
+/// failures, since further ones would fail in the same way.
 /// @returns the reasons of failures, each once, in the order of pictures
 [[nodiscard]] std::vector<std::string> draw_all(
     const std::vector<Picture>& pictures);

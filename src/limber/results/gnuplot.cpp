@@ -67,7 +67,7 @@ std::string GnuplotScript::run() const {
     case GnuplotEnd::hung:
       std::filesystem::remove(file_, ignored);
       return fmt::format(
-          "no picture '{}': gnuplot did not end by itself, and was ended",
+          "no picture '{}': gnuplot did not finish and was stopped",
           file_.filename().string());
     case GnuplotEnd::done:
       if (std::filesystem::exists(file_, ignored)) return {};

@@ -97,10 +97,10 @@ class JsonFile {
 void check_linear_model_ending(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending == ".mat" || ending == ".npz" || ending == ".json") return;
-  throw InputError(fmt::format(
-      "'{}' ends in none of .mat (MATLAB, Octave, SciPy), .npz (NumPy), .json, "
-      "which says what to write",
-      file.string()));
+  throw InputError(
+      fmt::format("'{}' does not end in .mat (MATLAB, Octave, SciPy), .npz "
+                  "(NumPy) or .json, which selects the format",
+                  file.string()));
 }
 
 void write_linear_model(const std::filesystem::path& file,

@@ -68,8 +68,8 @@ struct Motion {
 /// Error of `motion` against `reference`. All output times have equal weight.
 /// For a link that is whole in one and in pieces in the other ("LINK.1", ...),
 /// only displacements of the nodes that both store are compared.
-/// @throws ContractError unless both have the same bodies but for pieces, with
-/// the same stored nodes, and the same times.
+/// @throws ContractError unless both have the same bodies except for pieces,
+/// with the same stored nodes, and the same times.
 [[nodiscard]] SystemMotionError calc_motion_error(const Motion& motion,
                                                   const Motion& reference);
 

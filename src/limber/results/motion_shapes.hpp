@@ -14,7 +14,7 @@ struct MotionShapes {
   MatrixX shapes;       ///< rows of the field x r, orthonormal [kg^-1/2,
                         ///< formally; of another field 1]
   MatrixX coordinates;  ///< T x r [kg^1/2 m; the other field's unit]
-  double error = 0.0;   ///< largest size of what is left out [m; its unit]
+  double error = 0.0;   ///< largest size of the omitted part [m; its unit]
 };
 
 /// Length of the longest vector in three rows a node [as u].

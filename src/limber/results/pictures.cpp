@@ -170,7 +170,7 @@ struct TimeRange {
   double first = 0.0;
   double last = 1.0;
 
-  [[nodiscard]] double share(double t) const {
+  [[nodiscard]] double fraction(double t) const {
     return (t - first) / (last - first);
   }
 };
@@ -305,7 +305,7 @@ void add_marks(GnuplotScript& script, std::vector<Mark> marks,
   std::vector<double> places;
   for (const Mark& mark : marks) {
     places.push_back(kWidth *
-                     (kLeft + (kRight - kLeft) * range.share(mark.time)));
+                     (kLeft + (kRight - kLeft) * range.fraction(mark.time)));
   }
   const std::vector<double> spread = spread_labels(places);
   for (std::size_t i = 0; i < marks.size(); ++i) {

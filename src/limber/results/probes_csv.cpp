@@ -85,9 +85,10 @@ void write_text_file(const std::filesystem::path& file,
     write_content(out);
     out.flush();
     if (out) return;
-    throw InputError(fmt::format(
-        "'{}' cannot be written; does its folder exist, and is there room?",
-        file.string()));
+    throw InputError(
+        fmt::format("'{}' cannot be written; does its folder exist, and is "
+                    "there free space?",
+                    file.string()));
   });
 }
 

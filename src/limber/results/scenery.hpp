@@ -36,7 +36,7 @@ struct Scenery {
   std::vector<SceneryRobot> robots;
   std::string settings;  ///< what changed the texts after reading, a line each
   std::vector<SceneryShape> shapes;
-  std::vector<std::string> stressed;  ///< links whose stress was asked for
+  std::vector<std::string> stressed;  ///< links whose stress was requested
 };
 
 /// Writes the group `scene`: texts, surfaces of flexible bodies with their

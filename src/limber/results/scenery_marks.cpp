@@ -150,13 +150,13 @@ Eigen::Matrix<double, 3, 2> find_axes(const joints::TouchReading& touch) {
   const double angle = 0.5 * std::atan2(2.0 * S(0, 1), S(0, 0) - S(1, 1));
   const double c = std::cos(angle);
   const double s = std::sin(angle);
-  Eigen::Matrix2d turn;
-  turn << c, -s, s, c;
+  Eigen::Matrix2d rotation;
+  rotation << c, -s, s, c;
   for (int i = 0; i < 2; ++i) {
-    const double square = turn.col(i).dot(S * turn.col(i));
-    turn.col(i) *= 2.0 * std::sqrt(std::max(square, 0.0));
+    const double square = rotation.col(i).dot(S * rotation.col(i));
+    rotation.col(i) *= 2.0 * std::sqrt(std::max(square, 0.0));
   }
-  return plane * turn;
+  return plane * rotation;
 }
 
 constexpr Eigen::Index kTouchNumbers = 6;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kAround = 24;
 constexpr int kAlong = 12;  // of a half circle
 
-/// Radius and height of a point that turns about z.
+/// Radius and height of a point that rotates about z.
 using ProfilePoint = std::array<double, 2>;
 
 /// @param profile from the lower end to the upper, both on the axis

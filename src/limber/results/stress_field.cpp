@@ -60,14 +60,14 @@ Matrix6X FullStressField::calc_at_home(
 
 Matrix6X FullStressField::calc_in_world(
     const dynamics::SystemState& state) const {
-  return turn_to_world(calc_at_home(state), state.X_WH[full_].R);
+  return rotate_to_world(calc_at_home(state), state.X_WH[full_].R);
 }
 
 Matrix6X FullStressField::calc_in_body(
     const dynamics::SystemState& state) const {
   dynamics::MeanFrame frame;
   dynamics::calc_mean_frame(model_, model_.full_bodies[full_], state, frame);
-  return turn_to_world(calc_at_home(state), frame.R_HB.transpose());
+  return rotate_to_world(calc_at_home(state), frame.R_HB.transpose());
 }
 
 bool has_modal_stress(const dynamics::BodyModel& body) {

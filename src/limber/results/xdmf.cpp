@@ -125,7 +125,7 @@ class Surfaces {
       stress_B.col(static_cast<Eigen::Index>(modes.rows[i])) =
           at_points.segment<6>(6 * static_cast<Eigen::Index>(i));
     }
-    return turn_to_world(stress_B, R_WB);
+    return rotate_to_world(stress_B, R_WB);
   }
 
   const SystemModel& model_;

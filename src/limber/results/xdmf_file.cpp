@@ -181,18 +181,19 @@ void check_data_name(const std::filesystem::path& file,
     problem = "is not UTF-8";
   }
   if (problem == nullptr) return;
-  throw InputError(fmt::format(
-      "'{}': its name {}, so that readers of XDMF would not find '{}' beside "
-      "it; take another name",
-      echo(file.string()), problem, echo(data)));
+  throw InputError(
+      fmt::format("'{}': its name {}, so that readers of XDMF would not find "
+                  "'{}' beside it; choose another name",
+                  echo(file.string()), problem, echo(data)));
 }
 
 }  // namespace
 
-Matrix6X turn_to_world(const Matrix6X& stress_B, const Matrix3& R_WB) {
+Matrix6X rotate_to_world(const Matrix6X& stress_B, const Matrix3& R_WB) {
   Matrix6X stress_W(6, stress_B.cols());
   for (Eigen::Index n = 0; n < stress_B.cols(); ++n) {
-    stress_W.col(n) = flexbody::turn_stress(stress_B.col(n), R_WB.transpose());
+    stress_W.col(n) =
+        flexbody::rotate_stress(stress_B.col(n), R_WB.transpose());
   }
   return stress_W;
 }

@@ -21,8 +21,8 @@ struct SurfaceFrame {
 };
 
 /// Stress at nodes, 6 x n as above, from the axes of a body to the world's.
-[[nodiscard]] Matrix6X turn_to_world(const Matrix6X& stress_B,
-                                     const Matrix3& R_WB);
+[[nodiscard]] Matrix6X rotate_to_world(const Matrix6X& stress_B,
+                                       const Matrix3& R_WB);
 
 /// A surface and its times.
 struct MovingSurface {
@@ -37,7 +37,7 @@ struct MovingSurface {
 /// Writes a time series for ParaView: `file` (XDMF) and its data beside it (the
 /// same name with .h5). Point fields: "deformation" (size [m]),
 /// "deformation_vector" and "displacement" [m], and with stress "von_mises" and
-/// the symmetric tensor "stress" [Pa]. The offset of points, zero but for
+/// the symmetric tensor "stress" [Pa]. The offset of points, zero except for
 /// scenes far from the origin, is the data set "offset" and an Information.
 /// @throws InputError if it cannot be written.
 void write_xdmf_file(const std::filesystem::path& file,

@@ -42,9 +42,9 @@ std::vector<std::size_t> find_inputs(
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
       throw InputError(
           known.empty()
-              ? fmt::format("input '{}': the scenario has no [[controller]] "
-                            "whose output it could be",
-                            name)
+              ? fmt::format(
+                    "input '{}': no [[controller]] of the scenario writes it",
+                    name)
               : describe_unknown("input (a [[controller]])", name, known));
     }
   }
@@ -75,8 +75,8 @@ double choose_period(const std::vector<ControllerModel>& controllers,
   for (const std::size_t i : inputs) {
     if (controllers[i].period == first.period) continue;
     throw InputError(fmt::format(
-        "controllers '{}' and '{}' have periods of {:g} s and {:g} s, and a "
-        "batch one for all its inputs; give 'period'",
+        "controllers '{}' and '{}' have periods of {:g} s and {:g} s, but a "
+        "batch has one for all its inputs; give 'period'",
         first.name, controllers[i].name, first.period, controllers[i].period));
   }
   return first.period;

@@ -34,7 +34,7 @@ struct BatchOptions {
 /// A world moves as a run of its scene whose controllers write the same inputs
 /// at the same times, to the bit, whatever other worlds and threads there are.
 /// A world in which a computation cannot continue has failed: its observations
-/// are NaN until it is reset; the others go on.
+/// are NaN until it is reset; the others continue.
 ///
 /// Limits     all modes are integrated, none solved in closed form; a tolerance
 ///            is met by one pass

@@ -27,10 +27,10 @@ void check_is_same_run(const std::filesystem::path& file,
     differences.resize(kMostListed);
     differences.push_back(fmt::format("and {} more", count - kMostListed));
   }
-  throw InputError(fmt::format(
-      "the checkpoint '{}' is of another run: {}; run without --resume, or "
-      "restore what was",
-      file.string(), fmt::join(differences, "; ")));
+  throw InputError(
+      fmt::format("the checkpoint '{}' belongs to another run: {}; run without "
+                  "--resume, or restore the original input",
+                  file.string(), fmt::join(differences, "; ")));
 }
 
 // Whether anything of this name exists.

@@ -66,28 +66,26 @@ std::vector<std::string> find_cut_contacts(
     const scene::Robot& robot, const SystemModel& model,
     const std::vector<ContactRecord>& records) {
   const std::vector<CutSide> sides = list_sides(robot, model, records);
-  std::set<std::pair<std::string, BodyIndex>> said;
+  std::set<std::pair<std::string, BodyIndex>> reported;
   std::vector<std::string> warnings;
   for (const CutSide& a : sides) {
     for (const CutSide& b : sides) {
       if (a.link != b.link || a.other != b.other || a.piece >= b.piece ||
           !overlap(*a.record, *b.record) ||
-          !said.insert({a.link, a.other}).second) {
+          !reported.insert({a.link, a.other}).second) {
         continue;
       }
       const std::string what =
           a.other == dynamics::kWorld
               ? "the world"
               : fmt::format("'{}'", model.bodies[index(a.other)].name);
-      warnings.push_back(
-          fmt::format("pieces '{}' and '{}' of link '{}' touch {} at once, at "
-                      "t = {:.6g} s: "
-                      "at a cut each resists as if it were alone, and an "
-                      "impact's force may "
-                      "be up to 1.3 times too large; another number of pieces "
-                      "moves the cut",
-                      a.piece, b.piece, a.link, what,
-                      std::max(a.record->time, b.record->time)));
+      warnings.push_back(fmt::format(
+          "pieces '{}' and '{}' of link '{}' touch {} at the same time, at t = "
+          "{:.6g} s: at a cut each deforms as if the other did not touch, and "
+          "an impact's force may be up to 1.3 times too large; another number "
+          "of pieces moves the cut",
+          a.piece, b.piece, a.link, what,
+          std::max(a.record->time, b.record->time)));
     }
   }
   return warnings;

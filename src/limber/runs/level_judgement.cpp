@@ -121,15 +121,16 @@ scene::Scene leave_out_stress(scene::Scene scene) {
 }
 
 /// The levels that the scenario requests, one per body.
-std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
-                                           const dynamics::SystemModel& model) {
-  std::vector<dynamics::Fidelity> asked;
+std::vector<dynamics::Fidelity> find_requested(
+    const scene::Scenario& scenario, const dynamics::SystemModel& model) {
+  std::vector<dynamics::Fidelity> requested;
   for (const dynamics::BodyModel& body : model.bodies) {
     const auto found = scenario.fidelity_of_link.find(body.name);
-    asked.push_back(found == scenario.fidelity_of_link.end() ? scenario.fidelity
-                                                             : found->second);
+    requested.push_back(found == scenario.fidelity_of_link.end()
+                            ? scenario.fidelity
+                            : found->second);
   }
-  return asked;
+  return requested;
 }
 
 /// Forces of an impact are those of the masses that meet, which for flexible
@@ -137,9 +138,9 @@ std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
 std::string find_doubt(const std::vector<dynamics::ContactRecord>& contacts) {
   if (contacts.empty()) return "";
   return fmt::format(
-      "cannot tell how far a run is from these figures: {} contacts in the run "
-      "of rigid links, from {} at {:.4g} s on, whose forces flexible links "
-      "change; judge by the levels that 'limber run' reports",
+      "these figures may not apply: the run of rigid links has {} contacts, "
+      "the first {} at {:.4g} s, and flexible links change their forces; use "
+      "the levels that 'limber run' reports",
       contacts.size(), contacts.front().pair, contacts.front().time);
 }
 
@@ -251,11 +252,12 @@ SceneAdvice advise_scene(const scene::Scene& scene,
   dynamics::simulate(rigid.model, state, settings, {},
                      number_stage(progress, 2, 2), statistics, {}, followed,
                      record);
-  SceneAdvice advice{scene.scenario.file.string(),
-                     judge_levels(flexible.model, *level_observer,
-                                  find_asked(scene.scenario, flexible.model),
-                                  scene.scenario.advice),
-                     flexible.warnings, flexible.notes};
+  SceneAdvice advice{
+      scene.scenario.file.string(),
+      judge_levels(flexible.model, *level_observer,
+                   find_requested(scene.scenario, flexible.model),
+                   scene.scenario.advice),
+      flexible.warnings, flexible.notes};
   advice.warnings.insert(advice.warnings.end(), statistics.warnings.begin(),
                          statistics.warnings.end());
   find_bounds(advice.levels);

@@ -11,7 +11,7 @@
 
 namespace limber::runs {
 
-/// What a playground changes of a scene.
+/// Changes of a scene by a playground.
 struct PlaySettings {
   scene::Overrides overrides = {};  ///< keys of its files, and the level
   /// The lowest that are kept of each body, > 0.

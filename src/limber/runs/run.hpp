@@ -23,7 +23,8 @@
 /// of its probes and states.
 namespace limber::runs {
 
-/// How a scene is run. All may be left out but for what bodies need.
+/// How a scene is run. All members are optional except for those that bodies
+/// need.
 struct RunOptions {
   Reductions reductions{};  ///< none needed for rigid scenes
   /// Ends the run between two steps by throwing dynamics::Interrupted.

@@ -28,8 +28,8 @@ void check_finite(const std::string& whose, std::span<const double> values) {
                                 [](double x) { return !std::isfinite(x); });
   if (bad == values.end()) return;
   throw InputError(fmt::format(
-      "start of {}: {} is no number to start from; expected finite ones", whose,
-      *bad));
+      "start of {}: {} is not a valid start value; expected a finite number",
+      whose, *bad));
 }
 
 /// Replaces what is given, if anything.
@@ -88,7 +88,7 @@ double find_size(const dynamics::SystemModel& model,
 /// All pairs that may touch. They may overlap as far as at the scenario's
 /// start, or by a fraction of the smaller body.
 std::vector<scene::PlacedPair> list_contacts(const scene::BuiltScene& built) {
-  constexpr double kMostShare = 1e-4;  // of the smaller body's size [-]
+  constexpr double kMostFraction = 1e-4;  // of the smaller body's size [-]
   std::vector<scene::PlacedPair> contacts;
   for (std::size_t i = 0; i < built.model.pairs.size(); ++i) {
     const dynamics::Pair& pair = built.model.pairs[i];
@@ -101,7 +101,7 @@ std::vector<scene::PlacedPair> list_contacts(const scene::BuiltScene& built) {
     const double size = std::min(find_size(built.model, pair.body_A),
                                  find_size(built.model, pair.body_B));
     contacts.push_back({.name = pair.name,
-                        .most_overlap = std::max(depth, kMostShare * size),
+                        .most_overlap = std::max(depth, kMostFraction * size),
                         .pair = dynamics::PairIndex(i)});
   }
   return contacts;
@@ -110,13 +110,13 @@ std::vector<scene::PlacedPair> list_contacts(const scene::BuiltScene& built) {
 void check_movable(const scene::Scene& scene, const scene::BuiltScene& built) {
   if (scene.scenario.equilibrium) {
     throw InputError(
-        "a scenario that starts in equilibrium has no other starts: remove "
-        "'equilibrium' of [initial], or start all worlds there");
+        "a scenario that starts in equilibrium does not support other starts: "
+        "remove 'equilibrium' of [initial], or start all worlds there");
   }
   if (built.model.nodal_count > 0) {
     throw InputError(
-        "a scenario with a body at level 'full' has no other starts; choose "
-        "another level, or start all worlds as it does");
+        "a scenario with a body at level 'full' does not support other starts; "
+        "choose another level, or start all worlds as it does");
   }
 }
 

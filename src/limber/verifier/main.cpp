@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limber-verify: goes on in place of `limber verify` with the same command
+// limber-verify: runs in place of `limber verify` with the same command
 // line. It alone links Simbody, so that `limber` starts without.
 #include "limber/app/commands/verify_command.hpp"
 #include "limber/app/console/command_line.hpp"

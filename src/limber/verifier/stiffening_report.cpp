@@ -49,7 +49,7 @@ StiffnessTrend find_trend(const StiffeningReport& report) {
 }
 
 /// Reduction of the floor by the last halving of the step; 0 without one.
-double find_step_share(const StiffeningReport& report, std::size_t floor) {
+double find_step_fraction(const StiffeningReport& report, std::size_t floor) {
   const Verification& result = report.study.results[floor];
   if (result.runs.size() < 2) return 0.0;
   return find_relative_motion(result, result.runs[result.runs.size() - 2]) /
@@ -63,12 +63,13 @@ std::string describe_floor(const StiffeningReport& report, std::size_t floor) {
   std::string text =
       fmt::format("floor {:.2g}, at {:g} times the stiffness: ",
                   list_relative(report)[floor], report.factors[floor]);
-  const double share = find_step_share(report, floor);
-  if (share == 0.0) return text + "--refine 1 tells whether it is the step's\n";
-  text += fmt::format("halving the step divides it by {:.2f}, so ", share);
-  return text + (share > kFallsWithStep
-                     ? "it is the step's\n"
-                     : "it is round-off's or Simbody's, not the step's\n");
+  const double fraction = find_step_fraction(report, floor);
+  if (fraction == 0.0)
+    return text + "--refine 1 shows whether it is due to the step\n";
+  text += fmt::format("halving the step divides it by {:.2f}, so ", fraction);
+  return text + (fraction > kFallsWithStep
+                     ? "it is due to the step\n"
+                     : "it is due to round-off or Simbody, not to the step\n");
 }
 
 std::string describe(const StiffeningReport& report) {
@@ -138,8 +139,8 @@ Json to_json(const StiffeningReport& report) {
   if (trend.floor) {
     json["floor"] = {{"factor", report.factors[*trend.floor]},
                      {"relative", list_relative(report)[*trend.floor]}};
-    const double share = find_step_share(report, *trend.floor);
-    if (share > 0.0) json["floor"]["divided_by_halving_the_step"] = share;
+    const double fraction = find_step_fraction(report, *trend.floor);
+    if (fraction > 0.0) json["floor"]["divided_by_halving_the_step"] = fraction;
   }
   if (!report.study.ended.empty()) json["ended"] = report.study.ended;
   return json;

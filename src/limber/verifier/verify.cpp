@@ -64,8 +64,8 @@ using Folder = std::optional<OutputFolder>;
 /// Writes a report and its picture if there is a folder for it, and prints it.
 /// @param draw_in draws in a folder, and says why there is no picture if so
 template <typename Report, typename Draw>
-void tell(const VerifyOptions& options, const Folder& folder,
-          const Report& report, const Draw& draw_in) {
+void write_reports(const VerifyOptions& options, const Folder& folder,
+                   const Report& report, const Draw& draw_in) {
   clear_progress_bar();
   const Json json = to_json(report);
   if (folder) {
@@ -86,9 +86,10 @@ void stiffen(const VerifyOptions& options, const Folder& folder,
   report.factors = options.stiffen;
   report.study = reference::verify_stiffened(
       scene, built, options.stiffen, common.options, make_progress_bar());
-  tell(options, folder, report, [&](const std::filesystem::path& place) {
-    return draw(report, place / "stiffness.png");
-  });
+  write_reports(options, folder, report,
+                [&](const std::filesystem::path& place) {
+                  return draw(report, place / "stiffness.png");
+                });
 }
 
 }  // namespace
@@ -108,12 +109,12 @@ void verify(const VerifyOptions& options) {
   apply(options, scene.scenario.settings);
   if (options.refine > 0 && scene.scenario.settings.tolerance > 0.0) {
     throw InputError(
-        "--refine halves steps, and the scenario has a tolerance in place of "
-        "them; give --step, too");
+        "--refine halves steps, and the scenario has a tolerance instead of a "
+        "step; also give --step");
   }
   if (options.refine > 0 && !options.stiffen.empty()) {
     throw InputError(
-        "--refine and --stiffen are two studies; ask for one at a time");
+        "--refine and --stiffen are two studies; choose one at a time");
   }
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
@@ -124,8 +125,8 @@ void verify(const VerifyOptions& options) {
   }
   report.result =
       reference::verify(scene, built, report.options, make_progress_bar());
-  tell(options, folder, report,
-       [](const std::filesystem::path&) { return std::string(); });
+  write_reports(options, folder, report,
+                [](const std::filesystem::path&) { return std::string(); });
 }
 
 }  // namespace limber::app

@@ -5,7 +5,7 @@
 
 namespace limber::app {
 
-/// Does what `limber verify` is asked for. @throws InputError, NumericalError
+/// Runs `limber verify`. @throws InputError, NumericalError
 /// as reading, building and simulating the scene do
 void verify(const VerifyOptions& options);
 

@@ -39,7 +39,7 @@ Matrix6X find_stress(const Body& body, const Surface& surface, Eigen::Index i) {
   const VectorX all = body.Sigma_B.rows() > 0
                           ? body.Sigma_B * body.zeta.row(i).transpose()
                           : surface.Sigma_B * body.eta.row(i).transpose();
-  return results::turn_to_world(all.reshaped(6, n), find_rotation(body, i));
+  return results::rotate_to_world(all.reshaped(6, n), find_rotation(body, i));
 }
 
 // @param nodes of all surfaces

@@ -41,8 +41,8 @@ fs::path find_template() {
   if (!page.empty()) return page;
   const std::array<fs::path, 3> places = list_data_places(kName);
   throw InputError(fmt::format(
-      "the page '{}' is not there: looked for {}, {} and {}. The build makes "
-      "it with node and npm, and told what it lacked; install them "
+      "the page '{}' was not found; looked for {}, {} and {}. The build makes "
+      "it with node and npm and reported what was missing; install them "
       "(scripts/install-deps) and build again",
       kName, places[0].string(), places[1].string(), places[2].string()));
 }

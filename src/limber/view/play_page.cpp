@@ -27,9 +27,10 @@ std::filesystem::path find_part(const std::string& name) {
   if (!part.empty()) return part;
   const std::array<std::filesystem::path, 3> places = list_data_places(name);
   throw InputError(fmt::format(
-      "a page that simulates needs '{}', which is not there: looked for {}, {} "
-      "and {}. scripts/playground makes it with emscripten (scripts/"
-      "install-deps --with-playground), after the build, which makes the page",
+      "a page that simulates needs '{}', which was not found; looked for {}, "
+      "{} and {}. scripts/playground makes it with emscripten "
+      "(scripts/install-deps --with-playground), after the build, which makes "
+      "the page",
       name, places[0].string(), places[1].string(), places[2].string()));
 }
 

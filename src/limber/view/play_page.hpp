@@ -26,7 +26,7 @@ struct PlayControl {
 struct Playground {
   std::string name;
   std::string scenario;               ///< its path among `files`
-  bool has_rigid = false;             ///< whether a rigid ghost says more
+  bool has_rigid = false;             ///< whether a rigid ghost is informative
   std::vector<std::string> settings;  ///< PATH=VALUE, always
   std::map<std::string, std::string> files;   ///< contents by path
   std::map<std::string, std::string> bodies;  ///< paths among them by link

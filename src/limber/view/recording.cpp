@@ -58,14 +58,14 @@ class RecordingReader {
     }
     if (!in_.has("scene/version")) {
       fail(
-          "holds no surfaces and shapes to draw: an earlier version of Limber "
-          "wrote it, or another command than `limber run`. Run the scenario "
-          "again");
+          "has no surfaces and shapes to draw: it was written by an earlier "
+          "version of Limber, or by another command than `limber run`. Run the "
+          "scenario again");
     }
     const auto version = in_.read_integers("scene/version");
     if (version.size() == 1 && version[0] == results::kSceneryVersion) return;
     fail(fmt::format(
-        "holds what to draw in layout {}, but this version of Limber reads "
+        "holds its drawing data in layout {}, but this version of Limber reads "
         "layout {}. Run the scenario again",
         version.empty() ? 0 : version[0], results::kSceneryVersion));
   }
@@ -102,7 +102,7 @@ class RecordingReader {
     MatrixX q = matrix(name, rows, 4);
     const auto errors = (q.rowwise().norm().array() - 1.0).abs();
     if (errors.maxCoeff() < 1e-3) return q;
-    fail(fmt::format("is damaged: '{}' is no rotation", name));
+    fail(fmt::format("is damaged: '{}' is not a rotation", name));
   }
 
   /// As `matrix`, of values that may be NaN.

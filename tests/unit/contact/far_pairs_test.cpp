@@ -9,7 +9,7 @@
 
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/monitors/contact_start_observer.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -167,7 +167,7 @@ TEST(FarPairs, TouchOnTimeAtAnySpeedAndStep) {
 
 // Of bodies at rest it is the round-off of their places, in any unit of length.
 TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
-  const auto find_share = [](double size) {
+  const auto find_fraction = [](double size) {
     dynamics::SystemBuilder builder;
     const BodyIndex a = add_body(builder, "a");
     const BodyIndex b = add_body(builder, "b");
@@ -183,11 +183,11 @@ TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
     EXPECT_TRUE(touches.is_touching(0));
     return touches.find_tolerance(0, state, 1.0) / size;
   };
-  const double one = find_share(1.0);
+  const double one = find_fraction(1.0);
   EXPECT_GT(one, 1e-16);
   EXPECT_LT(one, 1e-12);
   for (const double size : {1e-6, 1e-3, 1e6}) {
-    EXPECT_NEAR(find_share(size), one, 1e-6 * one) << size;
+    EXPECT_NEAR(find_fraction(size), one, 1e-6 * one) << size;
   }
 }
 
@@ -249,7 +249,7 @@ std::shared_ptr<const flexbody::ReducedBody> make_breathing_body(
   return body;
 }
 
-// A skin at rest, whose one mode lifts it by eta: sin(omega t) reaches 0.6.
+// A surface at rest, whose one mode lifts it by eta: sin(omega t) reaches 0.6.
 TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
   constexpr double kOmega = 20.0;
   for (const double step : {0.02, 0.001}) {
@@ -262,7 +262,7 @@ TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
     builder.add_pair(
         "bell/ball", bell, kWorld,
         make_contact(
-            ContactSide{Shape{std::make_shared<const Skin>(surface), {}},
+            ContactSide{Shape{std::make_shared<const MeshSurface>(surface), {}},
                         kSteel, 1.0},
             make_ball(0.05, kFixed), ContactParameters{}));
     const dynamics::SystemModel model = builder.build();

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
@@ -60,9 +60,9 @@ inline flexbody::ContactPart make_end_part(int modes) {
   part.depth = 0.25 * kSide;
   part.residual = part.flexibility = find_residual(modes);
   for (int n = 1; n <= modes; ++n) {
-    const double share = roll_off(n, modes);
-    part.motion_B(0, n - 1) = share * mode_at(n, 0.0);
-    part.flexibility += (1.0 - share * share) * 2.0 * kLength /
+    const double fraction = roll_off(n, modes);
+    part.motion_B(0, n - 1) = fraction * mode_at(n, 0.0);
+    part.flexibility += (1.0 - fraction * fraction) * 2.0 * kLength /
                         (n * n * kPi * kPi * kModulus * kArea);
   }
   return part;
@@ -127,7 +127,7 @@ enum class Target { wall, box, rod };
 
 inline ContactSide make_rod_side(int modes) {
   const Matrix3 S = make_second_moments();
-  return {Shape{std::make_shared<const Skin>(make_end(modes)), {}},
+  return {Shape{std::make_shared<const MeshSurface>(make_end(modes)), {}},
           SurfaceMaterial{kModulus, 0.0}, kMass,
           S.trace() * Matrix3::Identity() - S};
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -67,10 +67,11 @@ Outcome strike(bool is_full) {
   flexbody::FullContactSurface surface = make_surface(network.x_B);
   const Vector3 middle = surface.surface.x_B.rowwise().mean();
   dynamics::SystemBuilder builder;
-  std::shared_ptr<const Skin> skin;
+  std::shared_ptr<const MeshSurface> mesh_surface;
   if (is_full) {
     builder.add_full_body("lattice", reduced, testing::make_full(network), {});
-    skin = std::make_shared<const Skin>(surface, network.x_B.cols());
+    mesh_surface =
+        std::make_shared<const MeshSurface>(surface, network.x_B.cols());
   } else {
     builder.add_flexible_body("lattice", reduced, dynamics::Fidelity::coupled,
                               {});
@@ -80,13 +81,13 @@ Outcome strike(bool is_full) {
           reduced->rows.Phi_B.middleRows<3>(
               3 * surface.means.nodes[static_cast<std::size_t>(i)]);
     }
-    skin = std::make_shared<const Skin>(surface.surface);
+    mesh_surface = std::make_shared<const MeshSurface>(surface.surface);
   }
   const auto ball = builder.add_rigid_body(
       "ball", {kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()});
   builder.add_pair(
       "lattice/ball", dynamics::BodyIndex(0), ball,
-      make_contact(ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
+      make_contact(ContactSide{Shape{mesh_surface, {}}, kRubber, reduced->mass},
                    ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
                    ContactParameters{.friction = {.sliding = 0.3}}));
   const dynamics::SystemModel model = builder.build();

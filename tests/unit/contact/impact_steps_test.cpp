@@ -221,8 +221,9 @@ TEST(ImpactSteps, LeaveRestToTheStepsOfTheRun) {
 // 2000 parts would be needed: the rest after 1000 is one step, which is told.
 TEST(ImpactSteps, AreBoundedWithAWarning) {
   const Outcome out = bounce(1.0, 5.0 * find_duration(), 1000.0);
-  EXPECT_THAT(out.statistics.warnings,
-              ::testing::Contains(HasSubstr("a step got 1000 parts")));
+  EXPECT_THAT(
+      out.statistics.warnings,
+      ::testing::Contains(HasSubstr("a step was divided into 1000 parts")));
 }
 
 // Its steps are bounded by most_steps.

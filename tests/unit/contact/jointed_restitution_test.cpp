@@ -29,9 +29,9 @@ constexpr double kSpeed = 0.5;  // [m/s]
 
 struct Strike {
   int links = 1;
-  double share = 0.5;  ///< of the last link's half length, from its centre
-  double mass = 1.0;   ///< of a link [kg]
-  double ball = 0.1;   ///< [kg]
+  double fraction = 0.5;  ///< of the last link's half length, from its centre
+  double mass = 1.0;      ///< of a link [kg]
+  double ball = 0.1;      ///< [kg]
   bool is_held = true;
   bool has_names_swapped = false;
   Vector3 turn = Vector3::Zero();  ///< of the scene [rad]
@@ -76,7 +76,7 @@ Parting find_parting(const Strike& strike, double e) {
   }
   VectorX normal = VectorX::Zero(2 * n);
   normal[2 * n - 2] = 1.0;
-  normal[2 * n - 1] = strike.share * kHalf;
+  normal[2 * n - 1] = strike.fraction * kHalf;
   const double yield = normal.dot(Y * normal);
   const double impulse = (1.0 + e) * kSpeed / (1.0 / strike.ball + yield);
   return {impulse / strike.ball - kSpeed, -impulse * yield};
@@ -132,7 +132,7 @@ Parting run(const Strike& strike, double e) {
     state.bodies[i].p_WB =
         R * Vector3(2.0 * kHalf * static_cast<double>(i), 0.0, 0.0);
   }
-  const double x = 2.0 * kHalf * (strike.links - 1) + strike.share * kHalf;
+  const double x = 2.0 * kHalf * (strike.links - 1) + strike.fraction * kHalf;
   dynamics::BodyState& body = state.bodies.back();
   body.p_WB = R * Vector3(x, 0.0, 2.0 * kRadius + 1e-6);
   body.v_WB_W = R * Vector3(0.0, 0.0, -kSpeed);
@@ -144,8 +144,9 @@ Parting run(const Strike& strike, double e) {
   EXPECT_EQ(record.contacts.size(), 1U);
   const dynamics::BodyState& last = state.bodies[links.size() - 1];
   const Vector3 up = R * Vector3::UnitZ();
-  const Vector3 point = last.v_WB_W + R * last.w_WB_B.cross(Vector3(
-                                              strike.share * kHalf, 0.0, 0.0));
+  const Vector3 point =
+      last.v_WB_W +
+      R * last.w_WB_B.cross(Vector3(strike.fraction * kHalf, 0.0, 0.0));
   return {state.bodies.back().v_WB_W.dot(up), point.dot(up)};
 }
 
@@ -159,24 +160,24 @@ void expect_right(const Strike& strike, double e) {
 
 TEST(JointedRestitution, OfArmsThatABallStrikesIsThatAskedFor) {
   for (const int links : {1, 2, 4}) {
-    for (const double share : {0.9, -0.3}) {
+    for (const double fraction : {0.9, -0.3}) {
       for (const double e : {0.9, 0.5, 0.2}) {
         SCOPED_TRACE(::testing::Message()
-                     << links << " links, at " << share << ", e " << e);
-        expect_right({.links = links, .share = share}, e);
+                     << links << " links, at " << fraction << ", e " << e);
+        expect_right({.links = links, .fraction = fraction}, e);
       }
     }
   }
 }
 
 TEST(JointedRestitution, IsThatOfAnArmThatNothingHolds) {
-  expect_right({.links = 3, .share = 0.7, .is_held = false}, 0.5);
+  expect_right({.links = 3, .fraction = 0.7, .is_held = false}, 0.5);
 }
 
 TEST(JointedRestitution, DoesNotDependOnMassesNamesAndAxes) {
-  expect_right({.links = 2, .share = 0.6, .mass = 1e3, .ball = 100.0}, 0.5);
-  expect_right({.links = 2, .share = 0.6, .ball = 10.0}, 0.5);
-  const Strike strike{.links = 2, .share = 0.6};
+  expect_right({.links = 2, .fraction = 0.6, .mass = 1e3, .ball = 100.0}, 0.5);
+  expect_right({.links = 2, .fraction = 0.6, .ball = 10.0}, 0.5);
+  const Strike strike{.links = 2, .fraction = 0.6};
   Strike changed = strike;
   changed.has_names_swapped = true;
   changed.turn = {0.4, -1.1, 2.0};

@@ -11,7 +11,7 @@
 #include "limber/common/pose.hpp"
 #include "limber/contact/patches/contact_side.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 /// Closed meshes of triangles.
 namespace limber::contact {
@@ -61,7 +61,7 @@ struct TestMesh {
     surface.residual = VectorX::Zero(surface.x_B.cols());
     surface.patch_radius = VectorX::Constant(surface.x_B.cols(), 0.01);
     surface.faces = faces;
-    return {Shape{std::make_shared<const Skin>(std::move(surface)), {}},
+    return {Shape{std::make_shared<const MeshSurface>(std::move(surface)), {}},
             SurfaceMaterial{modulus, 0.3}, mass, inertia, list_bodies()};
   }
 };

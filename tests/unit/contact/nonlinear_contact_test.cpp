@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -51,7 +51,8 @@ std::shared_ptr<const flexbody::ReducedBody> make_body(double bend) {
 }
 
 // A box of 0.4 m; products move it as further modes would.
-std::shared_ptr<const Skin> make_skin(double bend, bool has_products) {
+std::shared_ptr<const MeshSurface> make_mesh_surface(double bend,
+                                                     bool has_products) {
   flexbody::ContactSurface box =
       test::make_box_surface(Vector3::Constant(0.2), 3, false);
   std::vector<test::Field> fields = test::make_fields();
@@ -63,7 +64,7 @@ std::shared_ptr<const Skin> make_skin(double bend, bool has_products) {
     });
   }
   test::set_modes(box, fields);
-  return std::make_shared<const Skin>(box);
+  return std::make_shared<const MeshSurface>(box);
 }
 
 struct Impact {
@@ -77,10 +78,11 @@ Impact make_impact(Fidelity level, double bend, double amplitude) {
   const auto body = builder.add_flexible_body("body", reduced, level, {});
   const auto ball = builder.add_rigid_body(
       "ball", {kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()});
-  const auto skin = make_skin(bend, level == Fidelity::nonlinear);
+  const auto mesh_surface =
+      make_mesh_surface(bend, level == Fidelity::nonlinear);
   builder.add_pair(
       "body/ball", body, ball,
-      make_contact(ContactSide{Shape{skin, {}}, kRubber, reduced->mass},
+      make_contact(ContactSide{Shape{mesh_surface, {}}, kRubber, reduced->mass},
                    ContactSide{Shape{Sphere{kRadius}, {}}, kRubber, kMass},
                    ContactParameters{}));
   Impact impact{builder.build(), {}};

@@ -42,13 +42,13 @@ double find_limit(double friction, double restitution) {
   return 3.5 * friction * (1.0 + restitution);
 }
 
-// v_t = v_t0 - mu (1 + e) v_n, and 2/5 R w = mu (1 + e) v_n but for the depth,
-// by which the floor is nearer to the centre.
+// v_t = v_t0 - mu (1 + e) v_n, and 2/5 R w = mu (1 + e) v_n except for the
+// depth, by which the floor is nearer to the centre.
 TEST(ObliqueImpact, SlidesThroughoutAtFlatAngles) {
   for (const double restitution : {1.0, 0.7, 0.3}) {
     for (const double friction : {0.1, 0.3}) {
-      for (const double share : {1.05, 1.5, 3.0}) {
-        const double v_t = share * find_limit(friction, restitution);
+      for (const double fraction : {1.05, 1.5, 3.0}) {
+        const double v_t = fraction * find_limit(friction, restitution);
         const double taken = friction * (1.0 + restitution);
         const Rebound after = strike(friction, restitution, v_t);
         EXPECT_NEAR(after.v_n, restitution, 1e-3);
@@ -74,8 +74,8 @@ TEST(ObliqueImpact, LeavesRollingAtTheLimit) {
 // Moments about the place of the impact are zero: v_t + 2/5 R w stays.
 TEST(ObliqueImpact, SticksAtSteepAngles) {
   for (const double restitution : {1.0, 0.7, 0.3}) {
-    for (const double share : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95}) {
-      const double v_t = share * find_limit(0.3, restitution);
+    for (const double fraction : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95}) {
+      const double v_t = fraction * find_limit(0.3, restitution);
       const Rebound after = strike(0.3, restitution, v_t);
       EXPECT_NEAR((after.v_t + 0.4 * after.w_rim) / v_t, 1.0, 2e-3);
       EXPECT_LT(std::abs(after.v_t - after.w_rim), v_t);

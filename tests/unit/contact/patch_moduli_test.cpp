@@ -176,8 +176,8 @@ TEST(PatchModuli, OfARadiusAreOfBallsAlone) {
     (void)find_patch_moduli(make_plane(), make_box(1.0), {.radius = 0.08});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("'radius' has no meaning for a half "
-                                        "space and a box"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("'radius' does not apply to a half space and a box"));
   }
   EXPECT_THROW(
       (void)find_patch_moduli(make_plane(), make_box(1.0), {.stiffness = -1.0}),

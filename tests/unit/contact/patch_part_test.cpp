@@ -7,7 +7,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/contact/flat_rod.hpp"
 
 /// Parts of a flexible surface: their motion against differences, and the work
@@ -87,7 +87,7 @@ ContactSide make_side(const std::vector<double>& at) {
   flexbody::ContactSurface end = test::make_end(kModes);
   end.parts.clear();
   for (const double x : at) end.parts.push_back(make_part(x));
-  return {Shape{std::make_shared<const Skin>(end), {}},
+  return {Shape{std::make_shared<const MeshSurface>(end), {}},
           SurfaceMaterial{test::kModulus, 0.0}, test::kMass,
           Matrix3::Identity()};
 }

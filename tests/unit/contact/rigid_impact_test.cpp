@@ -133,8 +133,8 @@ void expect_warning_of_depth(const ContactParameters& parameters, double radius,
   const double k = unit.force / std::pow(unit.depth, 1.5);
   const double speed =
       std::sqrt(0.8 * k * std::pow(0.1 * kRadius, 2.5) / kMass);
-  for (const double share : {0.9, 1.1}) {
-    const double v = share * speed;
+  for (const double fraction : {0.9, 1.1}) {
+    const double v = fraction * speed;
     const ClosedForm exact = find_closed_form(kMass, radius, v);
     Scene scene = make_ball_and_floor(parameters, 1e-4, {0.0, 0.0, -v});
     SimulationStatistics statistics;
@@ -147,7 +147,7 @@ void expect_warning_of_depth(const ContactParameters& parameters, double radius,
     };
     EXPECT_EQ(std::any_of(statistics.warnings.begin(),
                           statistics.warnings.end(), is_deep),
-              share > 1.0);
+              fraction > 1.0);
   }
 }
 

@@ -336,10 +336,10 @@ TEST(TouchRestitution, OfABoxsCornerEdgeOrFaceIsThatOfRigidBodies) {
       body.v_WB_W.z() = -0.1;
       run.go(4e-3, 1e-5, IntegratorKind::generalized_alpha, 150.0);
       const Vector3 n = Vector3::UnitZ();
-      const Vector3 by_turn = r.cross(n);
+      const Vector3 by_rotation = r.cross(n);
       const Matrix3 J_W = R * inertia * R.transpose();
       const double compliance =
-          1.0 / mass + by_turn.dot(J_W.ldlt().solve(by_turn));
+          1.0 / mass + by_rotation.dot(J_W.ldlt().solve(by_rotation));
       const double impulse = (1.0 + e) * 0.1 / compliance;
       EXPECT_NEAR(body.v_WB_W.z(), impulse / mass - 0.1, 4e-4);
       ASSERT_GE(run.record.contacts.size(), 1U);

@@ -145,8 +145,8 @@ void add_field(const std::optional<ProjectedField>& field,
   fields.add(name, field.has_value());
   if (!field) return;
   fields.add(name + " eta", MatrixX(field->eta));
-  fields.add(name + " rigid_share", field->rigid_share);
-  fields.add(name + " missed_share", field->missed_share);
+  fields.add(name + " rigid_share", field->rigid_fraction);
+  fields.add(name + " missed_share", field->missed_fraction);
   fields.add(name + " key", field->key);
 }
 

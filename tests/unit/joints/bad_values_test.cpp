@@ -206,16 +206,18 @@ TEST(BadValues, OfALatch) {
       "negative eigenvalue");
 }
 
-TEST(BadValues, OfAUniversalHold) {
-  expect_refused<UniversalHold>({.axis_F = Vector3::Zero()}, "no direction");
-  expect_refused<UniversalHold>({.axis_M = kNaN * kX}, "no direction");
-  expect_refused<UniversalHold>({.axis_F = kX, .axis_M = kX + kY},
-                                "not normal to each other");
+TEST(BadValues, OfAUniversalConstraint) {
+  expect_refused<UniversalConstraint>({.axis_F = Vector3::Zero()},
+                                      "no direction");
+  expect_refused<UniversalConstraint>({.axis_M = kNaN * kX}, "no direction");
+  expect_refused<UniversalConstraint>({.axis_F = kX, .axis_M = kX + kY},
+                                      "not normal to each other");
   for (const double bad : {-1.0, kNaN, kInf}) {
-    expect_refused<UniversalHold>({.translational_stiffness = bad}, ">= 0");
-    expect_refused<UniversalHold>({.rotational_stiffness = bad}, ">= 0");
-    expect_refused<UniversalHold>({.translational_damping = bad}, ">= 0");
-    expect_refused<UniversalHold>({.rotational_damping = bad}, ">= 0");
+    expect_refused<UniversalConstraint>({.translational_stiffness = bad},
+                                        ">= 0");
+    expect_refused<UniversalConstraint>({.rotational_stiffness = bad}, ">= 0");
+    expect_refused<UniversalConstraint>({.translational_damping = bad}, ">= 0");
+    expect_refused<UniversalConstraint>({.rotational_damping = bad}, ">= 0");
   }
 }
 

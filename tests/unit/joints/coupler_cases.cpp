@@ -64,19 +64,19 @@ Make bushing(JointKind kind) {
   };
 }
 
-Joint turned_joint(const Joint& joint, const Joint::Hold& hold,
+Joint turned_joint(const Joint& joint, const Joint::Constraint& constraint,
                    const Matrix3& Q) {
   std::vector<AxisCoordinate> coordinates = joint.coordinates();
   for (AxisCoordinate& c : coordinates) c.axis = Q * c.axis;
-  return {hold, coordinates, joint.elements()};
+  return {constraint, coordinates, joint.elements()};
 }
 
 // The coordinates turn with Q also where make_joint chooses them.
 Make joint(JointKind kind, const std::vector<JointElement>& elements) {
   return [=](const Matrix3& Q) {
-    return turned_joint(make_joint(kind, kAxis, kSecond, kStiff, elements),
-                        make_joint(kind, Q * kAxis, Q * kSecond, kStiff).hold(),
-                        Q);
+    return turned_joint(
+        make_joint(kind, kAxis, kSecond, kStiff, elements),
+        make_joint(kind, Q * kAxis, Q * kSecond, kStiff).constraint(), Q);
   };
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A law that forgets one of its answers does not compile. Each of the laws
-// below is whole but for one, and so is no law.
+// below is whole except for one, and so is no law.
 #include "limber/joints/coupler_law_kind.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Nameless {
 class WholeLaw : public WithoutSwitches,
                  public WithoutCoordinates,
                  public WithoutCommands,
-                 public WithoutHold,
+                 public WithoutConstraint,
                  public WithoutReadings {
  public:
   [[nodiscard]] static Nothing parameters() { return {}; }
@@ -67,8 +67,8 @@ LIMBER_LAW_WITHOUT(coordinates);
 LIMBER_LAW_WITHOUT(elements);
 LIMBER_LAW_WITHOUT(break_times);
 LIMBER_LAW_WITHOUT(find_target_velocity);
-LIMBER_LAW_WITHOUT(find_hold_stiffness);
-LIMBER_LAW_WITHOUT(find_give);
+LIMBER_LAW_WITHOUT(find_constraint_stiffness);
+LIMBER_LAW_WITHOUT(find_deflection);
 LIMBER_LAW_WITHOUT(reading_kinds);
 LIMBER_LAW_WITHOUT(read);
 LIMBER_LAW_WITHOUT(parameters);
@@ -136,7 +136,7 @@ TEST(LawKinds, WhatALawDoesNotHaveIsEmpty) {
   EXPECT_TRUE(law.elements().empty());
   EXPECT_TRUE(law.break_times().empty());
   EXPECT_EQ(law.find_target_velocity({}, {}, {}), Vector6::Zero());
-  EXPECT_EQ(law.find_hold_stiffness(), std::nullopt);
+  EXPECT_EQ(law.find_constraint_stiffness(), std::nullopt);
   EXPECT_TRUE(law.reading_kinds().empty());
   const WholeScalarLaw scalar;
   EXPECT_EQ(scalar.switch_count(), 0);

@@ -328,25 +328,27 @@ TEST_P(CouplerLaws, WhatItShowsHasARateAndAnEffort) {
 }
 
 TEST_P(CouplerLaws, WhatStandsForAConstraintDoesNotGiveWayAtRest) {
-  const auto stiffness = find_hold_stiffness(law_);
+  const auto stiffness = find_constraint_stiffness(law_);
   if (!stiffness) return;
   const RelativeMotion& rest = GetParam().rest;
-  const HoldGive none = find_give(law_, *stiffness, rest);
+  const ConstraintDeflection none = find_deflection(law_, *stiffness, rest);
   EXPECT_EQ(none.distance, 0.0);
-  EXPECT_LT(none.turn, 1e-7);  // the root of round-off
+  EXPECT_LT(none.rotation, 1e-7);  // the root of round-off
   // Along the direction that it holds most, by as much as it is moved.
   double distance = 0.0;
-  double turn = 0.0;
+  double rotation = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
     RelativeMotion off = rest;
     off.p_FM_F += 0.01 * random_vector(random_).normalized();
-    distance = std::max(distance, find_give(law_, *stiffness, off).distance);
+    distance =
+        std::max(distance, find_deflection(law_, *stiffness, off).distance);
     off = rest;
     off.R_FM *= exp_rotation(0.01 * random_vector(random_).normalized());
-    turn = std::max(turn, find_give(law_, *stiffness, off).turn);
+    rotation =
+        std::max(rotation, find_deflection(law_, *stiffness, off).rotation);
   }
   EXPECT_NEAR(distance, stiffness->translational > 0.0 ? 0.01 : 0.0, 1e-3);
-  EXPECT_NEAR(turn, stiffness->rotational > 0.0 ? 0.01 : 0.0, 1e-3);
+  EXPECT_NEAR(rotation, stiffness->rotational > 0.0 ? 0.01 : 0.0, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, CouplerLaws,

@@ -62,8 +62,8 @@ struct Beam {
                        LoadFrame::body, Constant{});
     }
   }
-  [[nodiscard]] double share(const Vector3& w) const {
-    return calc_state(w).share;
+  [[nodiscard]] double fraction(const Vector3& w) const {
+    return calc_state(w).fraction;
   }
   [[nodiscard]] double strain(const Vector3& w) const {
     return calc_state(w).strain;
@@ -99,7 +99,7 @@ TEST(AxialLoad, OfAHeldBeamIsAShareOfEulersLoad) {
   beam.hold();
   const double P = kPi * kPi * kEI / (4.0 * kLength * kLength);
   beam.pull(Vector3(0.3 * P, 7.0, 3.0), Vector3(-0.3 * P, -7.0, 5.0));
-  EXPECT_NEAR(beam.share(Vector3::Zero()), -0.3, 0.003);
+  EXPECT_NEAR(beam.fraction(Vector3::Zero()), -0.3, 0.003);
 }
 
 // Half of a force at one end is the mean along a beam that it accelerates.
@@ -109,9 +109,9 @@ TEST(AxialLoad, OfAPushedBeamIsTheMeanAlongIt) {
   both.pull(Vector3(-P, 0.0, 0.0), Vector3(P, 0.0, 0.0));
   Beam one;
   one.pull(Vector3::Zero(), Vector3(P, 0.0, 0.0));
-  const double share = both.share(Vector3::Zero());
-  EXPECT_GT(share, 0.0);
-  EXPECT_NEAR(one.share(Vector3::Zero()), 0.5 * share, 1e-9 * share);
+  const double fraction = both.fraction(Vector3::Zero());
+  EXPECT_GT(fraction, 0.0);
+  EXPECT_NEAR(one.fraction(Vector3::Zero()), 0.5 * fraction, 1e-9 * fraction);
 }
 
 // The mean tension is m Omega^2 L / 12 across the axis, and none along it.
@@ -122,12 +122,12 @@ TEST(AxialLoad, OfASpinningBeamIsItsMeanTension) {
   Beam pulled;
   pulled.pull(Vector3(-P, 0.0, 0.0), Vector3(P, 0.0, 0.0));
   const double tension = kRhoA * kLength * kLength * kOmega * kOmega / 12.0;
-  const double expected = pulled.share(Vector3::Zero()) * tension / P;
+  const double expected = pulled.fraction(Vector3::Zero()) * tension / P;
   for (const Vector3& w : {Vector3(0, kOmega, 0), Vector3(0, 0, kOmega),
                            Vector3(0, 0.6 * kOmega, 0.8 * kOmega)}) {
-    EXPECT_NEAR(beam.share(w), expected, 1e-3 * expected);
+    EXPECT_NEAR(beam.fraction(w), expected, 1e-3 * expected);
   }
-  EXPECT_LT(std::abs(beam.share(Vector3(kOmega, 0, 0))), 1e-4 * expected);
+  EXPECT_LT(std::abs(beam.fraction(Vector3(kOmega, 0, 0))), 1e-4 * expected);
 }
 
 // Short, so that its first mode of stretch is among its first twelve.
@@ -177,9 +177,9 @@ TEST(AxialLoad, TurnOfInterfacesIsThatOfTheirTables) {
   const VectorX eta = VectorX::LinSpaced(model.bodies[0].modes, -0.02, 0.03);
   const Vector3 root = beam.reduced->interfaces[0].Psi_B * eta;
   const Vector3 tip = beam.reduced->interfaces[1].Psi_B * eta;
-  const InterfaceTurn turn = find_turn(model, beam.body, eta);
-  EXPECT_NEAR(turn.own, std::max(root.norm(), tip.norm()), 1e-12);
-  EXPECT_NEAR(turn.relative, (tip - root).norm(), 1e-12);
+  const InterfaceRotation rotation = find_rotation(model, beam.body, eta);
+  EXPECT_NEAR(rotation.own, std::max(root.norm(), tip.norm()), 1e-12);
+  EXPECT_NEAR(rotation.relative, (tip - root).norm(), 1e-12);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(ContactConvergence, PatchesOfABlockDifferByHertzsShares) {
   const VectorX R =
       Box({0.012, 0.012, 0.008}, cell, "contact_block.geo").calc_flexibility(b);
   const double expected =
-      calc_hertz_share(kSteel, b[0]) - calc_hertz_share(kSteel, b[1]);
+      calc_hertz_fraction(kSteel, b[0]) - calc_hertz_fraction(kSteel, b[1]);
   EXPECT_NEAR((R[0] - R[1]) / expected, 1.0, 0.03);
 }
 

@@ -37,23 +37,24 @@ struct Plate {
 
   [[nodiscard]] std::size_t find_point(const Vector3& x) const {
     std::size_t best = 0;
-    for (std::size_t p = 0; p < skin.points.size(); ++p) {
-      if ((skin.points[p].x - x).norm() < (skin.points[best].x - x).norm())
+    for (std::size_t p = 0; p < mesh_surface.points.size(); ++p) {
+      if ((mesh_surface.points[p].x - x).norm() <
+          (mesh_surface.points[best].x - x).norm())
         best = p;
     }
     return best;
   }
   [[nodiscard]] ContactPatch make_patch(const Vector3& x, double b) const {
     const std::size_t p = find_point(x);
-    fem::Surface centre = skin;
-    centre.points = {skin.points[p]};
+    fem::Surface centre = mesh_surface;
+    centre.points = {mesh_surface.points[p]};
     return find_patches(mesh, centre, normals.col(static_cast<Eigen::Index>(p)),
                         VectorX::Constant(1, b))[0];
   }
 
   fem::Mesh mesh;
-  fem::Surface skin = fem::make_surface(mesh, mesh.boundary_faces);
-  Matrix3X normals = find_normals(mesh, skin);
+  fem::Surface mesh_surface = fem::make_surface(mesh, mesh.boundary_faces);
+  Matrix3X normals = find_normals(mesh, mesh_surface);
 };
 
 const Plate& plate() {
@@ -133,16 +134,17 @@ TEST(ContactPatches, OnAnEdgeOfTheBodyHaveTheMeanNormalAndBothFaces) {
 }
 
 TEST(ContactRadii, AreTheEdgesUnlessTheBodyIsThinner) {
-  const auto& [mesh, skin, normals] = plate();
-  const VectorX radii = find_patch_radii(mesh, skin, normals);
+  const auto& [mesh, mesh_surface, normals] = plate();
+  const VectorX radii = find_patch_radii(mesh, mesh_surface, normals);
   EXPECT_NEAR(radii.minCoeff(), kCell, 1e-9);
   EXPECT_NEAR(radii.maxCoeff(), kCell, 1e-9);
   fem::Mesh thin = mesh;
   const double thickness = 0.3 * kCell;
   thin.x.row(2) *= thickness / kSize[2];
-  const fem::Surface thin_skin = fem::make_surface(thin, thin.boundary_faces);
+  const fem::Surface thin_surface =
+      fem::make_surface(thin, thin.boundary_faces);
   const VectorX thin_radii =
-      find_patch_radii(thin, thin_skin, find_normals(thin, thin_skin));
+      find_patch_radii(thin, thin_surface, find_normals(thin, thin_surface));
   const auto p =
       static_cast<Eigen::Index>(plate().find_point({0.04, 0.03, kSize[2]}));
   EXPECT_NEAR(thin_radii[p], kMostOfThickness * thickness, 1e-9);

@@ -241,7 +241,7 @@ TEST(HertzShare, IsTheMeanDisplacementUnderTheOwnPressure) {
     const double u = kPi * p0 * (2.0 * b * b - r * r) / (4.0 * stiffness * b);
     work += p * u * 2.0 * kPi * r * b / kSteps;
   }
-  EXPECT_NEAR(calc_hertz_share(steel, b) / work, 1.0, 1e-6);
+  EXPECT_NEAR(calc_hertz_fraction(steel, b) / work, 1.0, 1e-6);
 }
 
 }  // namespace

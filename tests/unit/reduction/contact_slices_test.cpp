@@ -9,12 +9,12 @@
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/full_body_maker.hpp"
 #include "limber/reduction/reduce.hpp"
-#include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
+#include "limber/reduction/slices/surface_division.hpp"
 #include "unit/reduction/bar.hpp"
 
-/// Slices of whole skins: their motion, their loads, and the closed forms of a
-/// rod and a beam.
+/// Slices of whole surfaces: their motion, their loads, and the closed forms of
+/// a rod and a beam.
 namespace limber::flexbody::contact_slices_test {
 namespace {
 
@@ -103,9 +103,9 @@ TEST(ContactSlices, OfABendingFingerAreSeveralAlongIt) {
   }
 }
 
-/// A free bar's skin and its samples.
-struct Skin {
-  explicit Skin(const Bar& bar)
+/// A free bar's surface and its samples.
+struct MeshSurface {
+  explicit MeshSurface(const Bar& bar)
       : body(make_recipe(bar), {}),
         surface(fem::make_surface(
             body.mesh,
@@ -120,9 +120,9 @@ struct Skin {
 };
 
 TEST(ContactSlices, MoveExactlyWithARigidBody) {
-  const Skin skin(kRod);
+  const MeshSurface mesh_surface(kRod);
   const Vector3 about(0.05, 0.3, -0.1);
-  const Matrix3X& x = skin.body.mesh.x;
+  const Matrix3X& x = mesh_surface.body.mesh.x;
   MatrixX Phi(3 * x.cols(), 6);
   for (Eigen::Index n = 0; n < x.cols(); ++n) {
     Phi.middleRows<3>(3 * n).leftCols<3>() = Matrix3::Identity();
@@ -130,7 +130,7 @@ TEST(ContactSlices, MoveExactlyWithARigidBody) {
   }
   const VectorX lambda = VectorX::Ones(6);
   const auto division =
-      divide_skin(skin.samples, lambda, Phi, 70e9, kMostSlices);
+      divide_surface(mesh_surface.samples, lambda, Phi, 70e9, kMostSlices);
   ASSERT_EQ(division.slices.size(), 1U);
   const SliceMotion motion(division.slices[0].samples);
   Matrix6 expected = Matrix6::Identity();
@@ -140,13 +140,13 @@ TEST(ContactSlices, MoveExactlyWithARigidBody) {
 
 // A unit load has the force 1 and no moment about the centre.
 TEST(ContactSlices, CarryForcesWithoutMoments) {
-  const Skin skin(kRod);
+  const MeshSurface mesh_surface(kRod);
   std::vector<const SurfaceSample*> end;
-  for (const SurfaceSample& s : skin.samples) {
+  for (const SurfaceSample& s : mesh_surface.samples) {
     if (s.x.x() > 0.9) end.push_back(&s);
   }
   const SliceMotion motion(end);
-  const Matrix3X& x = skin.body.mesh.x;
+  const Matrix3X& x = mesh_surface.body.mesh.x;
   const MatrixX loads = motion.find_loads(x.cols());
   for (int k = 0; k < 3; ++k) {
     Vector3 force = Vector3::Zero();

@@ -54,14 +54,16 @@ TEST(ContactSurface, HasThePlacesAndTagsOfTheMeshsNodes) {
   ASSERT_EQ(free_bar().contact_surfaces.size(), 2U);
   const NodeRows& rows = free_bar().rows;  // of the whole boundary
   const ContactSurface& tip = free_bar().contact_surfaces[0];
-  const ContactSurface& skin = free_bar().contact_surfaces[1];
+  const ContactSurface& mesh_surface = free_bar().contact_surfaces[1];
   EXPECT_EQ(tip.name, "tip");
-  EXPECT_EQ(skin.name, "skin");
+  EXPECT_EQ(mesh_surface.name, "skin");
   EXPECT_EQ(tip.tags.size(), 9U);
   EXPECT_EQ(tip.faces.size(), 2U);
-  EXPECT_EQ(skin.tags.size(), rows.tags.size());
-  EXPECT_EQ(std::set<std::size_t>(skin.tags.begin(), skin.tags.end()).size(),
-            skin.tags.size());
+  EXPECT_EQ(mesh_surface.tags.size(), rows.tags.size());
+  EXPECT_EQ(
+      std::set<std::size_t>(mesh_surface.tags.begin(), mesh_surface.tags.end())
+          .size(),
+      mesh_surface.tags.size());
   for (const ContactSurface& surface : free_bar().contact_surfaces) {
     for (std::size_t i = 0; i < surface.tags.size(); ++i) {
       const auto row =
@@ -90,44 +92,46 @@ TEST(ContactSurface, BetweenCornersHasTheirMeanResidual) {
 
 /// Mirror images of the bar are the bar; its mesh, too.
 TEST(ContactSurface, IsAsSymmetricAsTheBody) {
-  const ContactSurface& skin = free_bar().contact_surfaces[1];
+  const ContactSurface& mesh_surface = free_bar().contact_surfaces[1];
   const auto find = [&](const Vector3& x) {
     Eigen::Index nearest = 0;
-    (skin.x_B.colwise() - x).colwise().norm().minCoeff(&nearest);
-    EXPECT_LT((skin.x_B.col(nearest) - x).norm(), 1e-9);
+    (mesh_surface.x_B.colwise() - x).colwise().norm().minCoeff(&nearest);
+    EXPECT_LT((mesh_surface.x_B.col(nearest) - x).norm(), 1e-9);
     return nearest;
   };
   const auto is_corner = [&](Eigen::Index i) {
-    return std::any_of(skin.faces.begin(), skin.faces.end(),
+    return std::any_of(mesh_surface.faces.begin(), mesh_surface.faces.end(),
                        [&](const auto& face) {
                          return std::find(face.begin(), face.begin() + 3, i) !=
                                 face.begin() + 3;
                        });
   };
-  for (Eigen::Index i = 0; i < skin.residual.size(); ++i) {
+  for (Eigen::Index i = 0; i < mesh_surface.residual.size(); ++i) {
     if (!is_corner(i)) continue;  // the diagonals are not symmetric
     for (int axis = 0; axis < 3; ++axis) {
-      Vector3 mirrored = skin.x_B.col(i);
+      Vector3 mirrored = mesh_surface.x_B.col(i);
       mirrored[axis] *= -1.0;
-      EXPECT_NEAR(skin.residual[find(mirrored)], skin.residual[i],
-                  1e-6 * calc_hertz_share(kSteel, skin.patch_radius[i]));
+      EXPECT_NEAR(
+          mesh_surface.residual[find(mirrored)], mesh_surface.residual[i],
+          1e-6 * calc_hertz_fraction(kSteel, mesh_surface.patch_radius[i]));
     }
   }
 }
 
 /// Against the converged inverse. One shifted solution errs by the square of
-/// the shift's share in the first eigenvalue, about 1 %.
+/// the shift's fraction in the first eigenvalue, about 1 %.
 TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
   const Recipe recipe = make_contact_recipe(2);
   const MeshedBody body(recipe, {});
   const MatrixX nothing(body.support.matrices.dof_count(), 0);
-  const ContactSurface skin = make_contact_surfaces(
+  const ContactSurface mesh_surface = make_contact_surfaces(
       body, recipe, {VectorX(0), nothing}, nothing, Vector3::Zero(), {})[1];
-  EXPECT_EQ(skin.Phi_B.cols(), 0);
+  EXPECT_EQ(mesh_surface.Phi_B.cols(), 0);
   const fem::Surface surface =
       fem::make_surface(body.mesh, body.mesh.boundary_faces);
-  const std::vector<ContactPatch> patches = find_patches(
-      body.mesh, surface, find_normals(body.mesh, surface), skin.patch_radius);
+  const std::vector<ContactPatch> patches =
+      find_patches(body.mesh, surface, find_normals(body.mesh, surface),
+                   mesh_surface.patch_radius);
   for (std::size_t p = 0; p < 20; p += 3) {
     ASSERT_TRUE(surface.points[p].is_corner());
     VectorX f = VectorX::Zero(body.support.matrices.dof_count());
@@ -137,8 +141,9 @@ TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
     }
     const double whole = f.dot(body.inverse.solve(f).col(0));
     const auto n = static_cast<Eigen::Index>(p);
-    const double rest = whole - calc_hertz_share(kSteel, skin.patch_radius[n]);
-    EXPECT_NEAR(skin.residual[n], rest, 2e-4 * whole);
+    const double rest =
+        whole - calc_hertz_fraction(kSteel, mesh_surface.patch_radius[n]);
+    EXPECT_NEAR(mesh_surface.residual[n], rest, 2e-4 * whole);
   }
 }
 
@@ -161,7 +166,7 @@ TEST(ContactSurface, OnAClampIsRigid) {
   // What Hertz's law would supply is taken away.
   for (Eigen::Index i = 0; i < root.residual.size(); ++i) {
     EXPECT_NEAR(root.residual[i],
-                -calc_hertz_share(kSteel, root.patch_radius[i]),
+                -calc_hertz_fraction(kSteel, root.patch_radius[i]),
                 1e-12 * std::abs(root.residual[i]));
   }
 }

@@ -87,16 +87,16 @@ INSTANTIATE_TEST_SUITE_P(Support, Departure, ::testing::Bool(),
 /// Error (w / w_1)^(2n) of n terms under cos(w t), for w well below w_1.
 TEST_P(Departure, ErrorOfNTermsHasOrderTwoNInTheFrequency) {
   const MatrixX F = push_tip(dense_.body);
-  const auto error = [&](int terms, double share) {
-    const Complex s(0.0, share * dense_.first_frequency);
+  const auto error = [&](int terms, double fraction) {
+    const Complex s(0.0, fraction * dense_.first_frequency);
     const DepartureModel model = make_departure_model(dense_.body, F, terms);
     const Eigen::MatrixXcd exact = dense_.answer(F, s);
     return dense_.norm(expand(model, s) - exact) / dense_.norm(exact);
   };
-  for (const auto& [terms, share] :
+  for (const auto& [terms, fraction] :
        {std::pair{1, 0.05}, {2, 0.05}, {3, 0.1}, {4, 0.2}}) {
     const double slope =
-        std::log2(error(terms, 2.0 * share) / error(terms, share));
+        std::log2(error(terms, 2.0 * fraction) / error(terms, fraction));
     EXPECT_NEAR(slope, 2.0 * terms, 0.5) << terms;
   }
 }
@@ -105,9 +105,9 @@ TEST_P(Departure, ErrorOfNTermsHasOrderTwoNInTheFrequency) {
 TEST_P(Departure, InstantaneousAnswerHasOrderTwo) {
   const MatrixX F = push_tip(dense_.body);
   const VectorX x0 = dense_.answer(F, 0.0).real();
-  const auto error = [&](double share) {
+  const auto error = [&](double fraction) {
     return dense_.norm(
-        dense_.answer(F, Complex(0.0, share * dense_.first_frequency)) - x0);
+        dense_.answer(F, Complex(0.0, fraction * dense_.first_frequency)) - x0);
   };
   EXPECT_NEAR(std::log2(error(0.04) / error(0.02)), 2.0, 0.01);
 }
@@ -125,8 +125,8 @@ TEST_P(Departure, SingleInputModelIsTheExpansionOfOneTerm) {
   EXPECT_NEAR(single.k, x0.dot(dense_.K * x0), 1e-10 * single.k);
   EXPECT_NEAR(single.d, 30.0 * single.m + 1e-5 * single.k, 1e-10 * single.d);
   const DepartureModel model = make_departure_model(body, F, 1, friction);
-  for (const double share : {0.1, 0.9, 3.0}) {
-    const Complex s(0.0, share * dense_.first_frequency);
+  for (const double fraction : {0.1, 0.9, 3.0}) {
+    const Complex s(0.0, fraction * dense_.first_frequency);
     const Eigen::MatrixXcd expected = (1.0 + single.calc_transfer(s)) * x0;
     EXPECT_LT(dense_.norm(expand(model, s) - expected),
               1e-9 * dense_.norm(expected));

@@ -166,13 +166,13 @@ TEST(NonlinearLevel, ComesNearerAsItBendsIfClamped) {
                                       {0.0, force, 0.0}, Vector3::Zero());
   const Vector3 heavy = push_clamped(bar, Fidelity::nonlinear, Vector3::Zero(),
                                      {0.0, gravity, 0.0});
-  const auto find_share = [](const Vector3& tip) {
+  const auto find_fraction = [](const Vector3& tip) {
     return -tip.x() * kLength / (tip.y() * tip.y());
   };
   EXPECT_NEAR(pushed.y(), 0.02, 2e-4);  // of shear half
   EXPECT_NEAR(heavy.y(), 0.02, 2e-4);
-  EXPECT_NEAR(find_share(pushed), 3.0 / 5.0, 0.01 * 0.6);
-  EXPECT_NEAR(find_share(heavy), 4.0 / 7.0, 0.01 * 0.57);
+  EXPECT_NEAR(find_fraction(pushed), 3.0 / 5.0, 0.01 * 0.6);
+  EXPECT_NEAR(find_fraction(heavy), 4.0 / 7.0, 0.01 * 0.57);
   const Vector3 linear =
       push_clamped(bar, Fidelity::coupled, {0.0, force, 0.0}, Vector3::Zero());
   EXPECT_LT(std::abs(linear.x()), 1e-9);
@@ -200,8 +200,8 @@ TEST(NonlinearLevel, SoftensUnderCompressionIfClamped) {
     };
     return push(along) / push(0.0);
   };
-  for (const double share : {0.5, 0.8}) {
-    const double u = 0.5 * std::numbers::pi * std::sqrt(share);
+  for (const double fraction : {0.5, 0.8}) {
+    const double u = 0.5 * std::numbers::pi * std::sqrt(fraction);
     const double P = u * u * kClampedEI;
     const double pressed = 3.0 * (std::tan(u) - u) / (u * u * u);
     const double pulled = 3.0 * (u - std::tanh(u)) / (u * u * u);

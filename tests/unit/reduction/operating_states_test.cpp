@@ -100,7 +100,7 @@ TEST(AcceleratingState, PushedBarShortensByHalfOfItsStaticAnswer) {
   EXPECT_TRUE(state.trust.is_linear());
 }
 
-TEST(DriftingState, BalancesTheLoadByTheDragOfMassAndSkin) {
+TEST(DriftingState, BalancesTheLoadByTheDragOfMassAndSurface) {
   const Bar bar{.corner = {0.2, -0.1, 0.3}};
   const MeshedBody body(make_recipe(bar), {});
   const Friction friction{.mass_rate = 0.7, .surface = 50.0};
@@ -168,9 +168,9 @@ TEST(LinearTrust, EndsWhereDisplacementOrRotationIsATenth) {
   // Bending: w / L = F L^2 / (3 E I), the tip's rotation 3/2 of it.
   const double I = bar.size[1] * std::pow(bar.size[2], 3) / 12.0;
   const double F = 0.05 * 3.0 * bar.material.youngs_modulus * I;
-  const auto trust = [&](double share) {
+  const auto trust = [&](double fraction) {
     return find_accelerating_state(
-               body, testing::spread(body, 1, {0.0, 0.0, share * F}))
+               body, testing::spread(body, 1, {0.0, 0.0, fraction * F}))
         .trust;
   };
   EXPECT_NEAR(trust(1.0).displacement, 0.05, 1e-3);
@@ -217,7 +217,7 @@ TEST(DriftingState, RefusesWhatHasNoSteadySpeed) {
                   return find_drifting_state(body, newtons * across,
                                              {.mass_rate = 1.0});
                 }),
-                AllOf(HasSubstr("centre of drag"), HasSubstr("would turn")));
+                AllOf(HasSubstr("centre of drag"), HasSubstr("would rotate")));
   }
   const MeshedBody held(make_recipe({.is_clamped = true}), {});
   EXPECT_THAT(error_of([&] {

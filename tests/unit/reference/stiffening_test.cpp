@@ -13,7 +13,7 @@ namespace {
 
 using joints::Bushing;
 using joints::JointKind;
-using joints::UniversalHold;
+using joints::UniversalConstraint;
 using test::RigidScene;
 
 constexpr joints::JointParameters kParameters{.translational_stiffness = 3e5,
@@ -44,8 +44,8 @@ TEST(StiffenJoints, ScalesWhatIsHeldAndKeepsDampingRatiosAndWhatIsFree) {
         JointKind::planar, JointKind::ball, JointKind::floating}) {
     const joints::Joint joint = stiffen(make(kind, kParameters), 100.0);
     const joints::Joint expected = make(kind, scaled);
-    const auto& p = std::get<Bushing>(joint.hold()).parameters();
-    const auto& e = std::get<Bushing>(expected.hold()).parameters();
+    const auto& p = std::get<Bushing>(joint.constraint()).parameters();
+    const auto& e = std::get<Bushing>(expected.constraint()).parameters();
     const auto near = [&](const Matrix3& a, const Matrix3& b) {
       EXPECT_LE((a - b).norm(), 1e-14 * b.norm()) << to_string(kind);
     };
@@ -59,7 +59,8 @@ TEST(StiffenJoints, ScalesWhatIsHeldAndKeepsDampingRatiosAndWhatIsFree) {
 TEST(StiffenJoints, ScalesTheHoldOfAUniversalJointNotItsElements) {
   const joints::Joint joint =
       stiffen(make(JointKind::universal, kParameters), 100.0);
-  const auto& p = std::get<UniversalHold>(joint.hold()).parameters();
+  const auto& p =
+      std::get<UniversalConstraint>(joint.constraint()).parameters();
   EXPECT_DOUBLE_EQ(p.translational_stiffness, 3e7);
   EXPECT_DOUBLE_EQ(p.rotational_stiffness, 2e6);
   EXPECT_DOUBLE_EQ(p.translational_damping, 700.0);

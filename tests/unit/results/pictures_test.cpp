@@ -157,8 +157,8 @@ test::Pixels draw_pixels(const Draw& draw) {
 
 // Apart from labels of axes and the smoothed edges of triangles.
 void expect_same(const test::Pixels& near, const test::Pixels& far) {
-  EXPECT_GT(test::find_inked_share(near), 0.05);
-  EXPECT_LT(test::find_different_share(near, far), 0.01);
+  EXPECT_GT(test::find_inked_fraction(near), 0.05);
+  EXPECT_LT(test::find_different_fraction(near, far), 0.01);
 }
 
 TEST_F(Pictures, ScenesFarAwayAreThoseNearTheOriginButForLabels) {
@@ -177,7 +177,7 @@ TEST_F(Pictures, ScenesFarAwayAreThoseNearTheOriginButForLabels) {
   // That the comparison can fail: another moment.
   SmallRun other = near;
   other.history.states.resize(1);
-  EXPECT_GT(test::find_different_share(expected, draw(other)), 0.01);
+  EXPECT_GT(test::find_different_fraction(expected, draw(other)), 0.01);
 }
 
 TEST_F(Pictures, ScenesThatTravelAreDrawnFromTheMeanOfTheirBodies) {
@@ -229,15 +229,15 @@ TEST_F(Pictures, CurvesOfPlacesFarAwayAreThoseNearTheOriginButForLabels) {
     });
   };
   const test::Pixels near = draw(0.0, 0.0);
-  EXPECT_GT(test::find_inked_share(near), 0.01);
+  EXPECT_GT(test::find_inked_fraction(near), 0.01);
   for (const double x : {1e3, 6e5, -1e7}) {
     for (const double start : {0.0, 1e5}) {
       const double bound = start == 0.0 ? 0.002 : 0.01;
-      EXPECT_LT(test::find_different_share(near, draw(x, start)), bound)
+      EXPECT_LT(test::find_different_fraction(near, draw(x, start)), bound)
           << x << ' ' << start;
     }
   }
-  EXPECT_LT(test::find_different_share(near, draw(0.0, 1e5)), 0.01);
+  EXPECT_LT(test::find_different_fraction(near, draw(0.0, 1e5)), 0.01);
 }
 
 TEST_F(Pictures, ShapesOfMeshesFarFromTheirOriginAreThoseNearIt) {

@@ -86,7 +86,7 @@ Pixels read_png(const std::filesystem::path& file) {
   return pixels;
 }
 
-double find_different_share(const Pixels& a, const Pixels& b) {
+double find_different_fraction(const Pixels& a, const Pixels& b) {
   if (a.values.size() != b.values.size() || a.width != b.width) return 1.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.values.size(); i += a.channels) {
@@ -99,7 +99,7 @@ double find_different_share(const Pixels& a, const Pixels& b) {
   return double(count) / double(a.width * a.height);
 }
 
-double find_inked_share(const Pixels& pixels) {
+double find_inked_fraction(const Pixels& pixels) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < pixels.values.size(); i += pixels.channels) {
     const auto* pixel = pixels.values.data() + i;

@@ -19,11 +19,11 @@ struct Pixels {
 /// Source: PNG specification (ISO/IEC 15948), 9.2 and 11.2.
 [[nodiscard]] Pixels read_png(const std::filesystem::path& file);
 
-/// Share of pixels of which a channel differs by more than 8 [-]; 1 if sizes
+/// Fraction of pixels of which a channel differs by more than 8 [-]; 1 if sizes
 /// differ.
-[[nodiscard]] double find_different_share(const Pixels& a, const Pixels& b);
+[[nodiscard]] double find_different_fraction(const Pixels& a, const Pixels& b);
 
-/// Share of pixels that are not white [-].
-[[nodiscard]] double find_inked_share(const Pixels& pixels);
+/// Fraction of pixels that are not white [-].
+[[nodiscard]] double find_inked_fraction(const Pixels& pixels);
 
 }  // namespace limber::results::test

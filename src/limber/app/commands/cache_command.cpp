@@ -218,25 +218,25 @@ void add_cache(CLI::App& app, Action& action) {
   CLI::App* cache =
       app.add_subcommand("cache", "List or clean the folder of reduced bodies");
   cache->require_subcommand(1);
-  (void)add_command(*cache, "list",
-                    "Bodies and meshes with their size, and how long they were "
-                    "not used",
-                    list, action, options);
+  (void)add_command(
+      *cache, "list",
+      "Bodies and meshes, with their size and the time since their last use",
+      list, action, options);
   CLI::App* cleaning =
-      add_command(*cache, "clean", "Remove bodies and meshes, and nothing else",
+      add_command(*cache, "clean", "Remove bodies and meshes; other files stay",
                   clean, action, options);
   cleaning->add_flag("--all", options->all, "All of them");
   cleaning
       ->add_option("--older-than", options->older_than,
-                   "Those unused for longer, as 30d or 12h")
+                   "Those unused for longer, for example 30d or 12h")
       ->type_name("TIME");
   cleaning
       ->add_option("--keep", options->keep,
-                   "The longest unused, until the others take at most this, as "
-                   "2GB or 500MB")
+                   "The longest unused, until the rest take at most this size, "
+                   "for example 2GB or 500MB")
       ->type_name("SIZE");
   cleaning->add_flag("--dry-run", options->dry_run,
-                     "Only tell what would be removed");
+                     "Only list what would be removed");
 }
 
 }  // namespace limber::app

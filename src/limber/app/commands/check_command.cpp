@@ -39,8 +39,8 @@ void add_check(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
       "check",
-      "Report masses, frequencies against the step, cost and parts that cannot "
-      "answer, in seconds and without a run");
+      "Report masses, frequencies against the step, cost and parts without "
+      "effect, within seconds and without a run");
   add_scenario(*command, options->scenario);
   add_settings(*command, options->settings_given);
   add_fidelity(*command, options->fidelity);

@@ -69,8 +69,8 @@ ReferenceWish make_wish(const CompareOptions& options) {
 std::optional<Demand> make_demand(const CompareOptions& options) {
   if (options.tolerance.empty() && !options.measure.empty()) {
     throw InputError(
-        "--measure says which error --tolerance applies to; give --tolerance, "
-        "too");
+        "--measure selects the error that --tolerance applies to; give "
+        "--tolerance as well");
   }
   const ErrorMeasure measure =
       parse_error_measure(options.measure.empty() ? "both" : options.measure);
@@ -99,7 +99,7 @@ std::string describe_robot_settings(const ComparisonSettings& settings) {
   const auto sorted = scene::sort_settings(
       settings.settings, scene::parse_toml_file(settings.scenario));
   for (const scene::RobotSetting& setting : sorted.robots) {
-    text += fmt::format("# Run it with {}, which it does not hold.\n",
+    text += fmt::format("# Run it with {}, which is not in this file.\n",
                         to_string(setting.setting));
   }
   return text;
@@ -233,19 +233,19 @@ void compare(const CompareOptions& options) {
 
 void add_axes(CLI::App& command, CompareOptions& options) {
   add_list(command, "--fidelity", options.levels,
-           "Levels, as in rigid,coupled (default: rigid to coupled, up to "
-           "the reference's)")
+           "Levels, for example rigid,coupled (default: rigid to coupled, up "
+           "to the reference's)")
       ->type_name("LEVELS");
   add_list(command, "--modes", options.axes.eigenmodes,
-           "Numbers of eigenmodes of every flexible link, as in 4,10,20 "
+           "Numbers of eigenmodes of every flexible link, for example 4,10,20 "
            "(default: the scenario's)",
            CLI::Range(0, 100000));
-  add_list(command, "--sources", options.axes.sources,
-           "What the bases are made of: eigenmodes alone, or with the "
-           "static-deformation modes of interfaces, loads, or all "
-           "(default: the scenario's)");
+  add_list(
+      command, "--sources", options.axes.sources,
+      "Vectors of the bases: eigenmodes only, or with the static-deformation "
+      "modes of interfaces, loads, or all (default: the scenario's)");
   add_list(command, "--step", options.axes.steps,
-           "Longest steps [s], as in 1e-3,5e-4 (default: the scenario's)",
+           "Longest steps [s], for example 1e-3,5e-4 (default: the scenario's)",
            make_positive());
 }
 
@@ -263,14 +263,14 @@ void add_reference(CLI::App& command, CompareOptions& options) {
                   "compared)")
       ->check(make_positive());
   command.add_option("--reference-integrator", options.reference_integrator,
-                     "Its integrator, as in central-differences for level full "
-                     "(default: the scenario's)");
+                     "Its integrator, for example central-differences for "
+                     "level full (default: the scenario's)");
 }
 
 void add_demand(CLI::App& command, CompareOptions& options) {
   command.add_option("--tolerance", options.tolerance,
-                     "Largest error, as in 1% or 0.01: choose the cheapest run "
-                     "that meets it and write it as chosen.toml");
+                     "Largest error, for example 1% or 0.01: choose the "
+                     "cheapest run that meets it and write it as chosen.toml");
   command.add_option("--measure", options.measure,
                      "Error that the tolerance applies to: displacement, "
                      "deformation, or both (default): the larger one");
@@ -280,10 +280,10 @@ void add_demand(CLI::App& command, CompareOptions& options) {
 
 void add_compare(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand(
-      "compare",
-      "Simulate a scenario at several levels, bases and steps; measure what "
-      "each costs and gives up");
+  CLI::App* command =
+      app.add_subcommand("compare",
+                         "Simulate a scenario at several levels, bases and "
+                         "steps; measure the cost and the error of each");
   add_scenario(*command, options->scenario);
   add_settings(*command, options->settings);
   add_axes(*command, *options);
@@ -291,8 +291,8 @@ void add_compare(CLI::App& app, Action& action) {
   add_demand(*command, *options);
   command
       ->add_option("--repeat", options->repeats,
-                   "Runs of which the fastest counts (default: as many as last "
-                   "0.2 s)")
+                   "Number of timed runs, of which the fastest counts "
+                   "(default: as many as fit in 0.2 s)")
       ->check(CLI::Range(1, 1000));
   command->add_flag("--keep", options->keep,
                     "Keep the results of every run (default: where levels are "

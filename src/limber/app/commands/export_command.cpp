@@ -39,7 +39,7 @@ void check_data_file(const std::filesystem::path& file,
     return;
   }
   throw InputError(fmt::format(
-      "-o {}: its data, {}, would replace the results; take another name",
+      "-o {}: its data, {}, would replace the results; choose another name",
       file.string(), data.string()));
 }
 
@@ -90,7 +90,7 @@ void export_results(const ExportOptions& options) {
   if (!is_xdmf && file.extension() != ".glb") {
     throw InputError(
         fmt::format("-o {}: export writes .glb (binary glTF 2.0) or .xdmf (for "
-                    "ParaView, with .h5 beside it)",
+                    "ParaView, with an .h5 file next to it)",
                     options.out));
   }
   if (is_xdmf && options.magnification != 1.0) {

@@ -39,9 +39,9 @@ Json describe(const InfoOptions& options) {
   const auto& meshes = fem::kMeshFileExtensions;
   const bool is_mesh = std::count(meshes.begin(), meshes.end(), extension) > 0;
   if (options.unit > 0.0 && !is_mesh) {
-    throw InputError(
-        fmt::format("--unit is that of a mesh, which '{}' is not; leave it out",
-                    options.file));
+    throw InputError(fmt::format(
+        "--unit applies to a mesh, and '{}' is not a mesh; leave it out",
+        options.file));
   }
   if (results::is_checkpoint_file(options.file)) {
     return describe_checkpoint(options.file);

@@ -132,8 +132,8 @@ void print_linear_model(const LinearizeOptions& options,
   const Vector3& w = found.linear.system.axes.w_W;
   if (!w.isZero(0.0)) {
     fmt::print(
-        "vectors of the world frame are seen from axes that turn with it, at "
-        "({:.6g}, {:.6g}, {:.6g}) rad/s\n",
+        "vectors of the world frame are expressed in axes that rotate with it, "
+        "at ({:.6g}, {:.6g}, {:.6g}) rad/s\n",
         w.x(), w.y(), w.z());
   }
   if (record.period > 0.0) {
@@ -196,7 +196,7 @@ void add_linearize(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   command
       ->add_option("--states", options->states,
-                   "Reduce to so many states by balanced truncation")
+                   "Reduce to this number of states by balanced truncation")
       ->check(make_positive());
   command->add_flag("--closed-loop", options->closes_loops,
                     "With the controllers: a discrete model, from sample to "

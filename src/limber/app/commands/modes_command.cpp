@@ -34,11 +34,11 @@ void add_static_modes(const ModesOptions& options, flexbody::Recipe& recipe) {
       !options.forces.empty() || !options.interfaces.empty();
   if (options.static_terms && !has_source) {
     throw InputError(
-        "--static lists static-deformation modes; name what they come from by "
-        "--force or --interface");
+        "--static lists static-deformation modes; name their source by --force "
+        "or --interface");
   }
   if (!options.static_terms && !options.interfaces.empty()) {
-    throw InputError("--interface goes with --static");
+    throw InputError("--interface requires --static");
   }
   if (!options.static_terms && options.count == 0) {
     throw InputError("--count is 0; expected 1 or more without --static");
@@ -88,10 +88,10 @@ void add_modes(CLI::App& app, Action& action) {
       "base motion");
   add_model_options(*command, options->mesh);
   command->add_option("--clamp", options->clamps,
-                      "Group that is fixed; may be given again");
-  command->add_option("--force", options->forces,
-                      "Force file whose columns are load cases; may be given "
-                      "again");
+                      "Group that is fixed; may be repeated");
+  command->add_option(
+      "--force", options->forces,
+      "Force file whose columns are load cases; may be repeated");
   command->add_option("--count", options->count, "Number of elastic modes")
       ->check(make_not_negative());
   command
@@ -100,9 +100,9 @@ void add_modes(CLI::App& app, Action& action) {
                    "static-deformation modes of --force and --interface, with "
                    "so many Krylov terms x, K^+ M x, ... of each")
       ->check(make_positive());
-  command->add_option("--interface", options->interfaces,
-                      "Group whose static-deformation modes --static lists; "
-                      "may be given again");
+  command->add_option(
+      "--interface", options->interfaces,
+      "Group whose static-deformation modes --static lists; may be repeated");
   add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { find_modes(*options); }; });

@@ -75,10 +75,10 @@ void write_fields(const OperatingAnswer& answer,
 /// Magnifies displacements to a tenth of the body's size if they are smaller.
 double find_exaggeration(const OperatingAnswer& answer) {
   constexpr double kSeen = 0.1;
-  const double share =
+  const double fraction =
       answer.figures.at("deformation").get<double>() / answer.size;
-  if (!(share > 0.0) || share > 0.2 * kSeen) return 1.0;
-  return std::pow(10.0, std::floor(std::log10(kSeen / share)));
+  if (!(fraction > 0.0) || fraction > 0.2 * kSeen) return 1.0;
+  return std::pow(10.0, std::floor(std::log10(kSeen / fraction)));
 }
 
 void write(const OperatingAnswer& answer, const std::string& title,
@@ -121,14 +121,14 @@ void add_operate(CLI::App& app, Action& action) {
       "velocity, spin");
   add_mesh_options(*command, options->mesh);
   command->add_option("--clamp", options->clamps,
-                      "Group that is fixed; may be given again");
+                      "Group that is fixed; may be repeated");
   command->add_option("--state", options->state,
                       "accelerating under the load (default), drifting "
                       "against friction, spinning, or driven-spin: a torque "
                       "against friction");
-  command->add_option("--load", options->loads,
-                      "GROUP FX FY FZ: a force spread over a group [N]; may "
-                      "be given again");
+  command->add_option(
+      "--load", options->loads,
+      "GROUP FX FY FZ: a force spread over a group [N]; may be repeated");
   command->add_option("--axis", options->axis, "X Y Z: direction of the spin")
       ->expected(3);
   command
@@ -137,12 +137,12 @@ void add_operate(CLI::App& app, Action& action) {
       ->expected(3);
   command->add_option("--speed", options->request.speed, "Of the spin [rad/s]");
   command->add_option("--drag-rate", options->request.drag_rate,
-                      "Friction a mass and speed, Rayleigh's alpha [1/s]");
+                      "Friction per mass and speed, Rayleigh's alpha [1/s]");
   command->add_option("--surface-drag", options->request.surface_drag,
-                      "Friction a surface and speed [N s/m^3]");
+                      "Friction per area and speed [N s/m^3]");
   command->add_option("--after", options->request.after,
-                      "Of a drift: so long after it was at rest, slowly "
-                      "enough to bend along (for ever) [s]");
+                      "Of a drift: time since rest, with quasi-static "
+                      "deformation (default: infinite) [s]");
   command->add_option("--out", options->out,
                       "Folder for state.h5, summary.json and a picture");
   add_json(*command, options->json);

@@ -49,8 +49,8 @@ flexbody::Recipe make_recipe(const ReduceOptions& options) {
   if (options.terms > 1 && options.forces.empty() &&
       options.interfaces.empty()) {
     throw InputError(
-        "--terms counts those of static-deformation modes; name what they "
-        "come from by --force or --interface");
+        "--terms counts those of static-deformation modes; name their source "
+        "by --force or --interface");
   }
   if (options.interfaces.empty() &&
       std::count(options.rows.begin(), options.rows.end(), "interfaces") > 0) {
@@ -127,22 +127,22 @@ void reduce(const ReduceOptions& options) {
 
 void add_reduce(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ReduceOptions>();
-  CLI::App* command = app.add_subcommand(
-      "reduce",
-      "Reduce a mesh, or stiffness and mass matrices, to a body that needs "
-      "neither any more");
+  CLI::App* command =
+      app.add_subcommand("reduce",
+                         "Reduce a mesh, or stiffness and mass matrices, to a "
+                         "reduced body that no longer needs them");
   add_model_options(*command, options->mesh);
   command->add_option("--output,-o", options->output, "Reduced body (HDF5)")
       ->required();
   command->add_option("--interface", options->interfaces,
-                      "Group that becomes an interface; may be given again");
+                      "Group that becomes an interface; may be repeated");
   command->add_option("--clamp", options->clamps,
-                      "Group that is fixed; may be given again");
+                      "Group that is fixed; may be repeated");
   add_mode_options(*command, "--modes,--eigenmodes", options->modes);
-  command->add_option("--force", options->forces,
-                      "Force file: the static answers to the span of its "
-                      "columns enter the basis, and with --modes auto they "
-                      "are the load cases; may be given again");
+  command->add_option(
+      "--force", options->forces,
+      "Force file: the static responses to the span of its columns enter the "
+      "basis, and with --modes auto they are the load cases; may be repeated");
   command
       ->add_option("--terms", options->terms,
                    "Terms x, K^+ M x, ... of each static-deformation mode (1)")
@@ -154,7 +154,7 @@ void add_reduce(CLI::App& app, Action& action) {
                       "The same for its rate [m/s]");
   command->add_option("--rows", options->rows,
                       "Nodes to keep: all, boundary (default), interfaces, or "
-                      "groups by name; may be given again");
+                      "groups by name; may be repeated");
   command->add_flag("--second-order", options->manifold,
                     "With the tables that level nonlinear needs");
   command->add_flag("--stress", options->stress,

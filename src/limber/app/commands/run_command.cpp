@@ -52,7 +52,8 @@ std::filesystem::path find_run_folder(const RunOptions& options,
 
 StudiedRun find_run(const RunOptions& options) {
   if (!options.scenario.empty()) {
-    throw InputError("--from has a scenario of its own; leave the other out");
+    throw InputError(
+        "--from already selects the scenario; do not give another");
   }
   check_is_unchanged(options.from, options.cache);
   return find_studied_run(options.from);
@@ -64,7 +65,7 @@ void estimate_errors(runs::Run& run, const std::string& cache) {
                                          watch_signals(make_progress_bar())));
   } catch (const std::exception& error) {
     run.given_warnings.push_back(
-        fmt::format("errors are not known: {}", error.what()));
+        fmt::format("errors are unknown: {}", error.what()));
     print_warnings({run.given_warnings.back()});
   }
   clear_progress_bar();
@@ -97,8 +98,8 @@ void run_scenario(const RunOptions& options) {
   if (options.checkpoint_interval && result.statistics.steps == 0 &&
       !result.failure) {
     result.given_warnings.emplace_back(
-        "--checkpoint-interval changes nothing: the run took no steps, all of "
-        "it is known in closed form");
+        "--checkpoint-interval changes nothing: the run took no steps, because "
+        "its solution is in closed form");
     print_warnings({result.given_warnings.back()});
   }
   if ((options.errors || scene.scenario.output.errors) && !result.failure) {
@@ -122,14 +123,14 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
   add_scenario(*command, options->scenario)->required(false);
   command->add_option("--from", options->from,
-                      "FILE#RUN: a run of a study, as study.sqlite#17, in "
-                      "place of a scenario");
+                      "FILE#RUN: a run of a study, for example "
+                      "study.sqlite#17, instead of a scenario");
   add_settings(*command, options->settings_given);
   add_fidelity(*command, options->fidelity);
   add_out(*command, options->out, "<scenario name>");
   add_cache_option(*command, options->cache);
   command->add_flag("--resume", options->resumes,
-                    "Go on from the checkpoint in the results folder");
+                    "Continue from the checkpoint in the results folder");
   command
       ->add_option("--checkpoint-interval", options->checkpoint_interval,
                    "Wall time between checkpoints [s] (default: 60)")

@@ -38,7 +38,7 @@ void ship(const ShipOptions& options) {
 void add_ship(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ShipOptions>();
   CLI::App* command = app.add_subcommand(
-      "__ship", "Reduces the bodies of scenarios, to come with Limber");
+      "__ship", "Reduce the bodies of the scenarios that ship with Limber");
   command->group("");  // for scripts/package, in no help
   add_cache_option(*command, options->cache)->required();
   command->add_option("folder", options->folder)->required();

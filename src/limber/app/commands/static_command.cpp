@@ -83,16 +83,16 @@ void report_equilibrium(const StaticOptions& options) {
 
 void add_static(CLI::App& app, Action& action) {
   const auto options = std::make_shared<StaticOptions>();
-  CLI::App* command = app.add_subcommand(
-      "static",
-      "Static equilibrium of a scenario under what acts at its start: loads, "
-      "gravity, couplers, drives");
+  CLI::App* command =
+      app.add_subcommand("static",
+                         "Static equilibrium of a scenario under all that acts "
+                         "at its start: loads, gravity, couplers, drives");
   add_scenario(*command, options->scenario);
   add_settings(*command, options->settings_given);
   add_fidelity(*command, options->fidelity);
   command->add_option("--method", options->method,
                       "newton: load stepping from the start; relaxation: "
-                      "falls to an equilibrium, however far");
+                      "damped motion to an equilibrium, however distant");
   add_out(*command, options->out, "<scenario name>-static");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);

@@ -47,7 +47,8 @@ Shard parse_shard(const std::string& text) {
   const auto n = scene::to_index(text.substr(slash + 1));
   if (!k || !n || *k < 1 || *k > *n) {
     throw InputError(fmt::format(
-        "--shard '{}': expected K/N with K from 1 to N, as 2/8", text));
+        "--shard '{}': expected K/N with K from 1 to N, for example 2/8",
+        text));
   }
   return {*k - 1, *n};
 }
@@ -125,8 +126,8 @@ void run_one(const StudyCommandOptions& options) {
 void collect(const StudyCommandOptions& options) {
   if (!options.study.empty() || !options.shard.empty()) {
     throw InputError(
-        "--collect takes files of results alone, no study file "
-        "and no --shard");
+        "--collect takes only files of results, without a study file and "
+        "--shard");
   }
   const fs::path folder = make_folder(options, "collected");
   const fs::path file = folder / "study.sqlite";
@@ -148,14 +149,16 @@ void run_study_file(const StudyCommandOptions& options) {
 
 void add_study(CLI::App& app, Action& action) {
   const auto options = std::make_shared<StudyCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "study", "Many runs of a scenario with other values, in one table");
+  CLI::App* command =
+      app.add_subcommand("study",
+                         "Run a scenario many times with varied values, with "
+                         "all results in one table");
   command->add_option("study", options->study, "Study file (TOML)");
   command->add_option("--collect", options->collected,
                       "Join results of shards into one file");
-  command->add_option("--shard", options->shard,
-                      "K/N: every N-th run from the K-th on alone, into a file "
-                      "of its own");
+  command->add_option(
+      "--shard", options->shard,
+      "K/N: only every N-th run from the K-th on, into a separate file");
   command
       ->add_option("--jobs", options->jobs,
                    "Runs at a time (default: as many as processors)")
@@ -163,7 +166,7 @@ void add_study(CLI::App& app, Action& action) {
   add_out(*command, options->out, "<study name>");
   add_cache_option(*command, options->cache);
   add_robot_options(*command, options->robots);
-  command->add_flag("--csv", options->csv, "Write the table as CSV, too");
+  command->add_flag("--csv", options->csv, "Also write the table as CSV");
   add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { run_study_file(*options); }; });

@@ -15,10 +15,10 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
   CLI::App* command = app.add_subcommand(
       "verify", "Compare the level `rigid` with Simbody, body by body");
   add_scenario(*command, options->scenario);
-  command->add_option("--joints", options->joints,
-                      "What stands for joints in Simbody: bushings (default), "
-                      "linear-bushings, ideal");
-  command->add_option("--step", options->step, "Our longest step [s]")
+  command->add_option(
+      "--joints", options->joints,
+      "Model of joints in Simbody: bushings (default), linear-bushings, ideal");
+  command->add_option("--step", options->step, "Longest step of Limber [s]")
       ->check(make_positive());
   command->add_option("--duration", options->duration, "End of both runs [s]")
       ->check(make_positive());
@@ -30,10 +30,11 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
                       "Of Simbody's integrator (default 1e-12)");
   command
       ->add_option("--refine", options->refine,
-                   "Halve our step this often; shows the order")
+                   "Number of times to halve Limber's step, which shows the "
+                   "order of convergence")
       ->check(CLI::Range(0, 20));
   add_list(*command, "--stiffen", options->stiffen,
-           "Factors of the stiffness of all joints, as in 1,10,100: "
+           "Factors of the stiffness of all joints, for example 1,10,100: "
            "convergence to Simbody's ideal joints",
            make_positive());
   command->add_option("--out", options->out,

@@ -43,8 +43,8 @@ std::vector<std::filesystem::path> find_compared(
   }
   if (runs.empty()) {
     throw InputError(
-        fmt::format("'{}' is a comparison that kept no runs to show; repeat it "
-                    "with `limber compare --keep`",
+        fmt::format("'{}' is a comparison that kept no runs to show; run it "
+                    "again with `limber compare --keep`",
                     folder.string()));
   }
   std::sort(runs.begin(), runs.end());
@@ -63,7 +63,7 @@ void check_page(const std::filesystem::path& page,
       continue;
     }
     throw InputError(fmt::format(
-        "-o {}: the page would replace the results; take another name",
+        "-o {}: the page would replace the results; choose another name",
         page.string()));
   }
 }
@@ -107,14 +107,14 @@ void add_view(CLI::App& app, Action& action) {
       "view", "Show results in a browser: one HTML file, without a network");
   CLI::Option* results = command->add_option(
       "results", options->results,
-      "Folder of a run or of a comparison, or its results.h5; more "
-      "of them are its ghosts, or side by side (b in the page)");
+      "Folder of a run or of a comparison, or its results.h5; further ones are "
+      "shown as ghosts, or side by side (key b in the page)");
   CLI::Option* ghosts =
       command->add_option("--with", options->ghosts,
                           "Other results, shown as ghosts (may be repeated)");
   command
       ->add_option("--play", options->play,
-                   "In place of results a scenario that the page simulates "
+                   "Instead of results, a scenario that the page simulates "
                    "itself, with sliders for its values")
       ->excludes(results)
       ->excludes(ghosts);

@@ -72,10 +72,10 @@ dynamics::Fidelity find_level(const WobbleOptions& options) {
 std::vector<double> find_output_times(double step, double duration) {
   constexpr double kMostOutputs = 1e7;  // they are kept in memory
   if (!(duration / step <= kMostOutputs)) {
-    throw InputError(fmt::format(
-        "--step {:g} s takes {:.3g} steps until {:g} s, each an output; at "
-        "most {:g} can be kept",
-        step, duration / step, duration, kMostOutputs));
+    throw InputError(
+        fmt::format("--step {:g} s needs {:.3g} steps until {:g} s, each an "
+                    "output; at most {:g} can be stored",
+                    step, duration / step, duration, kMostOutputs));
   }
   std::vector<double> times;
   const auto count = static_cast<long>(std::ceil(duration / step - 1e-9));
@@ -164,14 +164,14 @@ void add_wobble(CLI::App& app, Action& action) {
                    "explicit-euler, the package's own")
       ->type_name("INTEGRATOR");
   command->add_option("--clamp", options->clamps,
-                      "Group that is fixed; may be given again");
+                      "Group that is fixed; may be repeated");
   command->add_option("--initial-displacement", options->initial_displacement,
                       "Nodal field at the start: a row for each free degree "
                       "of freedom [m]");
   command->add_option("--initial-velocity", options->initial_velocity,
                       "The same for its rate [m/s]");
   command->add_option("--node", options->nodes,
-                      "Node to follow, by its tag; may be given again");
+                      "Node to follow, by its tag; may be repeated");
   command->add_option("--size", options->size,
                       "Element size when meshing geometry [mesh units]");
   command->add_option("--order", options->order,

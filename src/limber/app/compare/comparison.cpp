@@ -118,7 +118,7 @@ class Runner {
     options.judges_levels = settings_.keep_runs;
     runs::PicturedScene made = runs::build_pictured(scene, options.reductions);
     runs::warn_of_unused_cache(settings_.cache, made.built);
-    made.built.settings.tolerance *= choice.tolerance_share;
+    made.built.settings.tolerance *= choice.tolerance_fraction;
     runs::Run run = runs::simulate_pictured(scene, std::move(made), options);
     done_ += cost;
     clear_progress_bar();

@@ -16,7 +16,7 @@ using dynamics::Fidelity;
 using scene::BasisChoice;
 
 /// Of the scenario's tolerance, for the reference [-].
-constexpr double kToleranceShare = 0.1;
+constexpr double kToleranceFraction = 0.1;
 
 bool has_flexible_link(const scene::Scene& scene) {
   return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
@@ -113,7 +113,7 @@ Choice find_reference(const Axes& axes, const ReferenceWish& wish,
   }
   reference.integrator = wish.integrator;
   if (!wish.step && steps_to_tolerance(axes, scene)) {
-    reference.tolerance_share = kToleranceShare;
+    reference.tolerance_fraction = kToleranceFraction;
   } else {
     reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
   }
@@ -126,18 +126,18 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
   std::vector<std::string> problems;
   for (const Fidelity level : axes.levels) {
     if (level <= reference.level) continue;
-    problems.push_back(fmt::format(
-        "--fidelity: '{}' computes more than the reference, '{}'; choose it by "
-        "--reference",
-        to_string(level), to_string(reference.level)));
+    problems.push_back(
+        fmt::format("--fidelity: '{}' computes more than the reference, '{}'; "
+                    "choose another reference by --reference",
+                    to_string(level), to_string(reference.level)));
   }
   const double shortest = find_shortest_step(axes, scene);
   if (reference.integrator && !reference.step &&
       !dynamics::traits_of(*reference.integrator).is_adaptive) {
-    problems.push_back(fmt::format(
-        "--reference-integrator: {} cannot step to the scenario's tolerance; "
-        "give --reference-step, too",
-        to_string(*reference.integrator)));
+    problems.push_back(
+        fmt::format("--reference-integrator: {} cannot step to the scenario's "
+                    "tolerance; also give --reference-step",
+                    to_string(*reference.integrator)));
   }
   if (reference.step.value_or(0.0) > shortest) {
     problems.push_back(fmt::format(
@@ -148,9 +148,9 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
     if (!reference.basis.eigenmodes || count <= *reference.basis.eigenmodes) {
       continue;
     }
-    problems.push_back(
-        fmt::format("--reference-modes: {} are fewer than a compared {}",
-                    *reference.basis.eigenmodes, count));
+    problems.push_back(fmt::format(
+        "--reference-modes: {} are fewer than the {} of a compared run",
+        *reference.basis.eigenmodes, count));
   }
   if (wish.eigenmodes && !reference.basis.eigenmodes) {
     problems.push_back(fmt::format(
@@ -175,11 +175,11 @@ void check_runs(const ComparisonPlan& plan, const Axes& axes) {
   }
 }
 
-// Its step, or its share of the tolerance; empty if they are the scenario's.
+// Its step, or its fraction of the tolerance; empty if they are the scenario's.
 std::string describe_accuracy(const Choice& choice) {
   if (choice.step) return fmt::format("{:g} s", *choice.step);
-  if (choice.tolerance_share == 1.0) return "";
-  return fmt::format("{:g} of the tolerance", choice.tolerance_share);
+  if (choice.tolerance_fraction == 1.0) return "";
+  return fmt::format("{:g} of the tolerance", choice.tolerance_fraction);
 }
 
 std::vector<std::string> list_details(const Choice& choice) {
@@ -270,7 +270,7 @@ std::string describe_default_reference(const ComparisonPlan& plan) {
   if (!plan.reference_is_default) return "";
   if (!has_basis(plan.reference.level)) {
     return fmt::format(
-        "The reference is the highest level asked for, '{}'; choose another by "
+        "The reference is the highest level requested, '{}'; choose another by "
         "--reference.",
         to_string(plan.reference.level));
   }

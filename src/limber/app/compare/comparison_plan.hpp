@@ -16,7 +16,8 @@ struct Choice {
   scene::BasisChoice basis;
   std::optional<double> step;  ///< [s]
   std::optional<dynamics::IntegratorKind> integrator = {};
-  double tolerance_share = 1.0;  ///< of the scenario's tolerance, if it has one
+  double tolerance_fraction =
+      1.0;  ///< of the scenario's tolerance, if it has one
 
   bool operator==(const Choice&) const = default;
 };

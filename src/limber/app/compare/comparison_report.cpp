@@ -127,7 +127,7 @@ Json to_json(const ComparedRun& run, const ComparedRun* reference) {
             {"fidelity", std::string(to_string(run.choice.level))},
             {"basis", to_json(run.choice.basis)},
             {"step", or_null(run.choice.step)},
-            {"tolerance_share", run.choice.tolerance_share},
+            {"tolerance_share", run.choice.tolerance_fraction},
             {"integrator", to_json(run.choice.integrator)},
             {"completed", run.stopped.empty()}};
   if (!run.stopped.empty()) json["stopped"] = run.stopped;
@@ -193,8 +193,8 @@ std::string to_text(const Comparison& comparison) {
   }
   return text +
          "Errors: RMS over nodes and times (largest over times), relative to "
-         "the reference's.\nOnline: wall time per simulated time. Drift: of "
-         "energy, relative to what passed.\n";
+         "the reference's.\nOnline: wall time per simulated time. Drift: "
+         "energy error relative to the throughput.\n";
 }
 
 }  // namespace limber::app

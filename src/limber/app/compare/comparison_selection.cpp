@@ -45,17 +45,17 @@ std::string to_string(ErrorMeasure measure) {
 
 double parse_tolerance(const std::string& text) {
   const auto refuse = [&](const std::string& why) {
-    throw InputError(fmt::format(
-        "--tolerance: '{}' {}; expected a share between 0 and 1, as in 1% or "
-        "0.01",
-        echo(text), why));
+    throw InputError(
+        fmt::format("--tolerance: '{}' {}; expected a fraction between 0 and "
+                    "1, for example 1% or 0.01",
+                    echo(text), why));
   };
   std::string_view number = text;
   const bool is_percent = number.ends_with('%');
   if (is_percent) number.remove_suffix(1);
   while (number.ends_with(' ')) number.remove_suffix(1);
   const std::optional<double> given = parse_number(number);
-  if (!given) refuse("is no finite number");
+  if (!given) refuse("is not a finite number");
   const double value = is_percent ? *given / 100.0 : *given;
   if (!(value > 0.0) || !(value < 1.0)) {
     refuse(fmt::format("is {:g} %", 100.0 * value));
@@ -107,8 +107,8 @@ void refuse(const Comparison& comparison, const Demand& demand) {
                     to_percent(demand.tolerance)));
   }
   throw NumericalError(fmt::format(
-      "nothing meets the tolerance of {}; '{}' comes closest with {} "
-      "of {}. More modes, other sources or a shorter step may help",
+      "no run meets the tolerance of {}; '{}' comes closest with {} of {}. "
+      "More modes, other sources or a shorter step may help",
       to_percent(demand.tolerance), describe(closest->choice), what,
       to_percent(least)));
 }

@@ -16,7 +16,7 @@ enum class ErrorMeasure { displacement, deformation, both };
 [[nodiscard]] ErrorMeasure parse_error_measure(const std::string& name);
 [[nodiscard]] std::string to_string(ErrorMeasure measure);
 
-/// "1%" or "0.01" as a share in (0, 1) [-].
+/// "1%" or "0.01" as a fraction in (0, 1) [-].
 /// @throws InputError for anything else.
 [[nodiscard]] double parse_tolerance(const std::string& text);
 

@@ -32,7 +32,7 @@ Json to_json(const ContactDifference& difference) {
               {"restitution", or_null(difference.restitution)}};
 }
 
-// "1693 (+0.3%)", without the share for the reference.
+// "1693 (+0.3%)", without the fraction for the reference.
 std::string to_cell(double value, const std::optional<double>& error) {
   const std::string text = fmt::format("{:.5g}", value);
   return error ? fmt::format("{} ({:+.1f}%)", text, 100.0 * *error) : text;

@@ -48,7 +48,7 @@ struct NamedContacts {
                            const std::vector<PairContact>* reference);
 
 /// A table for each pair that touched in any run, the reference last; empty if
-/// none did. If a pair did not touch in a run, its row says so.
+/// none did. If a pair was not in contact in a run, its row states it.
 [[nodiscard]] std::string to_text(const std::vector<NamedContacts>& runs,
                                   const NamedContacts& reference);
 

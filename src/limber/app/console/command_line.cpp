@@ -42,7 +42,7 @@ std::vector<std::string> list_words(const std::vector<Candidate>& candidates) {
 }
 
 /// What is wrong with a command line: the first option or command in it that
-/// is not known, with the nearest that is, or else what the parser says.
+/// is not known, with the nearest that is, or else the parser's message.
 std::string explain(const CLI::App& app, const CLI::App& command,
                     const CLI::ParseError& error) {
   const std::vector<std::string> unknown = app.remaining(true);
@@ -78,13 +78,13 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
 /// `limber __complete WORD...` for the functions of shells, `limber __manual
 /// FOLDER` for the build; in no help. @returns whether it was one of them
 bool answers_tool(const CLI::App& app, int argc, char** argv) {
-  const std::string_view asked = argc > 1 ? argv[1] : "";
-  if (asked == "__complete") {
+  const std::string_view requested = argc > 1 ? argv[1] : "";
+  if (requested == "__complete") {
     const std::vector<std::string> words(argv + 2, argv + argc);
     fmt::print("{}", to_lines(complete(app, words)));
     return true;
   }
-  if (asked != "__manual" || argc != 3) return false;
+  if (requested != "__manual" || argc != 3) return false;
   write_manuals(app, argv[2]);
   return true;
 }

@@ -88,7 +88,7 @@ int run_guarded(const std::function<void()>& work) {
     return fail_output(errno == 0 ? "a write failed" : describe_errno());
   }
   if (status != kSuccess || find_received_signal() == 0) return status;
-  print_notice(fmt::format("{} came after the end; all files are whole",
+  print_notice(fmt::format("{} arrived after the end; all files are complete",
                            name_signal(find_received_signal())));
   return 128 + find_received_signal();
 }

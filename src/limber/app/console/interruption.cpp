@@ -38,14 +38,15 @@ void handle(int signal) {
   int none = 0;
   if (is_deferred && received.compare_exchange_strong(none, signal)) {
     received_at = read_clock();
-    say("\nlimber: ending between two steps; a second signal ends at once\n");
+    say("\nlimber: stopping after this step; a second signal stops "
+        "immediately\n");
     return;
   }
   if (is_deferred && read_clock() - received_at < kSameRequest) return;
   remove_unfinished_files();
   say("\nlimber: ended by ");
   say(name_signal(signal));
-  say("; no file is half written\n");
+  say("; all files are complete\n");
   _exit(128 + signal);
 }
 

@@ -5,9 +5,9 @@
 
 namespace limber::app {
 
-std::string to_percent(std::optional<double> share) {
-  if (!share) return "none";
-  const double percent = 100.0 * *share;
+std::string to_percent(std::optional<double> fraction) {
+  if (!fraction) return "none";
+  const double percent = 100.0 * *fraction;
   return percent < 10.0 ? fmt::format("{:.2g} %", percent)
                         : fmt::format("{:.3g} %", percent);
 }

@@ -6,7 +6,7 @@
 
 namespace limber::app {
 
-/// "1.2 %"; "none" without a value. @param share [-]
-[[nodiscard]] std::string to_percent(std::optional<double> share);
+/// "1.2 %"; "none" without a value. @param fraction [-]
+[[nodiscard]] std::string to_percent(std::optional<double> fraction);
 
 }  // namespace limber::app

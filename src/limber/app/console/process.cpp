@@ -82,11 +82,11 @@ void check_address_space() {
   const std::size_t threads = count_blas_threads();
   const std::size_t needed = threads * kBufferOfAThread + kRest;
   if (has_address_space(needed)) return;
-  print_error(fmt::format(
-      "out of memory: the limit of address space (ulimit -v) leaves less than "
-      "the {} MiB that linear algebra by {} threads takes; raise it, or set "
-      "OPENBLAS_NUM_THREADS=1",
-      needed / kMebi, threads));
+  print_error(
+      fmt::format("out of memory: the limit of address space (ulimit -v) "
+                  "leaves less than the {} MiB that linear algebra with {} "
+                  "threads needs; raise it, or set OPENBLAS_NUM_THREADS=1",
+                  needed / kMebi, threads));
   _exit(kNoSolution);  // an OpenBLAS thread may never end
 }
 

@@ -30,8 +30,8 @@ std::string TimeEstimate::take_announcement() {
   const std::optional<double> rest = left();
   if (!rest || measured < kPiece || measured + *rest < kLong) return "";
   if (!announced_.insert(what_).second) return "";
-  return fmt::format("{}: about {} to go, by its first {}", what_,
-                     to_duration(*rest), to_duration(measured));
+  return fmt::format("{}: about {} remaining, estimated from its first {}",
+                     what_, to_duration(*rest), to_duration(measured));
 }
 
 }  // namespace limber::app

@@ -170,15 +170,14 @@ class Finder {
         std::minmax_element(levels.begin(), levels.end());
     if (*highest == Fidelity::full) {
       if (*lowest == Fidelity::full) return;
-      found_.unknown.emplace_back("level of links beside those at full");
+      found_.unknown.emplace_back("level of links other than those at full");
       return;
     }
     const std::optional<Fidelity> finer =
         *lowest < *highest ? std::optional(*highest) : find_next(*highest);
     if (!finer) {
       found_.unknown.emplace_back(
-          "level: above nonlinear there is full alone, which takes whole "
-          "meshes");
+          "level: only full is above nonlinear, and it uses whole meshes");
       return;
     }
     add("level", fmt::format("all links at level {}", to_string(*finer)),

@@ -11,11 +11,11 @@
 /// What the error of a run comes from: docs/reference/errors.md.
 namespace limber::app {
 
-/// One cause, with the run that shows it: the same scene with this alone done
-/// better.
+/// One cause, with the run that shows it: the same scene with only this
+/// refined.
 struct ErrorCause {
   std::string name;   ///< "step", "modes", "level", "mesh", "contact"
-  std::string finer;  ///< what is done better: "half of the step"
+  std::string finer;  ///< the refinement: "half of the step"
   scene::Overrides overrides;
   /// Error of the run over its difference from the finer one [-].
   double factor = 1.0;
@@ -34,8 +34,8 @@ struct ErrorCauses {
 /// difference itself counts, of modes half as much again for those after them.
 [[nodiscard]] ErrorCauses find_error_causes(const runs::Run& run);
 
-/// All of them in one run, but the level, whose cost the others multiply; none
-/// if there are fewer than two.
+/// All of them in one run, except the level, whose cost the others multiply;
+/// none if there are fewer than two.
 [[nodiscard]] std::optional<ErrorCause> join_causes(
     const std::vector<ErrorCause>& causes);
 

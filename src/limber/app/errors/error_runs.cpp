@@ -215,12 +215,13 @@ class Estimator {
 std::optional<std::string> find_imbalance(const dynamics::EnergyDrift& finer,
                                           const dynamics::EnergyDrift& own) {
   constexpr double kMuchMore = 2.0;
-  const double open = dynamics::find_open_share(finer);
-  const double most = std::max(dynamics::kToldDrift,
-                               kMuchMore * dynamics::find_open_share(own));
+  const double open = dynamics::find_unbalanced_fraction(finer);
+  const double most =
+      std::max(dynamics::kReportedDrift,
+               kMuchMore * dynamics::find_unbalanced_fraction(own));
   if (!(open > most)) return std::nullopt;
   return fmt::format(
-      "{:.2g} % of its energy are {} by t = {:.4g} s that nothing accounts for",
+      "energy error: {:.2g} % of its energy is {} by t = {:.4g} s",
       100.0 * open, finer.drift.value < 0.0 ? "lost" : "gained",
       finer.drift.time);
 }

@@ -19,8 +19,8 @@ namespace limber::app {
     const runs::Run& run, const std::filesystem::path& cache,
     const Progress& progress);
 
-/// Why a run with finer settings is no better than one's own: it gains or loses
-/// much more energy that nothing accounts for.
+/// Why a run with finer settings is not more accurate than the given one: its
+/// energy error is much larger.
 [[nodiscard]] std::optional<std::string> find_imbalance(
     const dynamics::EnergyDrift& finer, const dynamics::EnergyDrift& own);
 

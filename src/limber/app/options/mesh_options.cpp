@@ -151,8 +151,8 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
   add_force_unit(command, options.force);
   command
       .add_option("--ignore", options.ignored,
-                  "A card, keyword or element type of a deck that is left out "
-                  "though the body lacks it then; repeatable")
+                  "A card, keyword or element type of a deck to leave out, "
+                  "although the body then lacks it; repeatable")
       ->allow_extra_args(false);
 }
 

@@ -37,7 +37,7 @@ void add_model_options(CLI::App& command, MeshOptions& options);
 /// options of a mesh with matrices.
 [[nodiscard]] flexbody::Recipe make_recipe(const MeshOptions& options);
 
-/// What was found in the files of matrices, a line each.
+/// Report on the files of matrices, a line each.
 void print_found(const std::vector<std::string>& found);
 
 }  // namespace limber::app

@@ -48,7 +48,7 @@ void add_mode_options(CLI::App& command, const std::string& names,
                      "cases need");
   command
       .add_option("--threshold", options.threshold,
-                  "With auto: share of each load case to reach (0.9)")
+                  "With auto: fraction of each load case to reach (0.9)")
       ->check(CLI::Range(0.0, 1.0));
   command.add_option("--measure", options.measure,
                      "With auto: compliance (default), report or mass");

@@ -19,7 +19,7 @@ namespace limber::app {
 /// Number of eigenmodes, or how they are selected.
 struct ModeOptions {
   std::string count = "10";         ///< a number or "auto"
-  std::optional<double> threshold;  ///< share to reach, in [0, 1] [-]
+  std::optional<double> threshold;  ///< fraction to reach, in [0, 1] [-]
   std::optional<std::string> measure;
   std::optional<int> candidates;  ///< number to select from
 };

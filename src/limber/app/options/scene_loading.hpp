@@ -10,7 +10,7 @@
 namespace limber::app {
 
 /// scene::load_scene, and prints the scenario's notes, before an analysis that
-/// may fail because of what they say.
+/// may fail because of their content.
 [[nodiscard]] scene::Scene load_with_notes(const std::filesystem::path& file,
                                            const scene::Overrides& overrides);
 

@@ -13,15 +13,15 @@ namespace limber::app {
 void add_settings(CLI::App& command, SettingOptions& options) {
   command
       .add_option("--set", options.set,
-                  "A key of the scenario or the robot by its path, as in "
-                  "load.strike.force.2=-200 or "
-                  "robot.joint.elbow.limit.upper=1 (as often as needed)")
+                  "A key of the scenario or the robot by its path, for example "
+                  "load.strike.force.2=-200 or robot.joint.elbow.limit.upper=1 "
+                  "(as often as needed)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--unset", options.unset,
-                  "Removes a key of the scenario or the robot, as in "
-                  "time.steps")
+      .add_option(
+          "--unset", options.unset,
+          "Removes a key of the scenario or the robot, for example time.steps")
       ->type_name("KEY")
       ->allow_extra_args(false);
   add_robot_options(command, options);
@@ -35,8 +35,8 @@ void add_robot_options(CLI::App& command, SettingOptions& options) {
                   "ROS_PACKAGE_PATH)")
       ->allow_extra_args(false);
   command.add_flag("--repair-inertia", options.repairs_inertia,
-                   "Replace inertias of robots that no mass has by the "
-                   "nearest that one has");
+                   "Replace inertias of robots that no rigid body can have by "
+                   "the nearest that one can have");
 }
 
 namespace {

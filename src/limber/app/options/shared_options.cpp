@@ -78,8 +78,8 @@ CLI::Option* add_force_unit(CLI::App& command, double& newtons) {
       "where lengths are in m, cm or mm)");
 }
 
-CLI::Option* add_json(CLI::App& command, bool& is_asked) {
-  return command.add_flag("--json", is_asked, "Print one JSON object");
+CLI::Option* add_json(CLI::App& command, bool& is_requested) {
+  return command.add_flag("--json", is_requested, "Print one JSON object");
 }
 
 }  // namespace limber::app

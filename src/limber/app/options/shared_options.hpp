@@ -35,6 +35,6 @@ CLI::Option* add_unit(CLI::App& command, double& metres);
 CLI::Option* add_force_unit(CLI::App& command, double& newtons);
 
 /// --json
-CLI::Option* add_json(CLI::App& command, bool& is_asked);
+CLI::Option* add_json(CLI::App& command, bool& is_requested);
 
 }  // namespace limber::app

@@ -114,17 +114,17 @@ std::string describe_scheme(const dynamics::SimulationSettings& settings) {
 std::string describe_stability(const SceneCheck& check) {
   const double step = check.settings.step;
   const double stable = *check.stable_step;
-  if (step <= dynamics::kStableShare * stable) {
+  if (step <= dynamics::kStableFraction * stable) {
     return fmt::format("stable up to steps of {:.3g} s", stable);
   }
   if (check.settings.integrator == IntegratorKind::central_differences) {
     return fmt::format(
         "stable up to steps of {:.3g} s: each is divided into {:.0f} parts",
-        stable, std::ceil(step / (dynamics::kStableShare * stable)));
+        stable, std::ceil(step / (dynamics::kStableFraction * stable)));
   }
   return fmt::format(
-      "surely stable up to steps of {:.3g} s only: longer ones "
-      "are divided where they grow",
+      "guaranteed stable only up to steps of {:.3g} s: longer ones are divided "
+      "where the motion grows",
       stable);
 }
 

@@ -27,7 +27,7 @@ struct JointCheck {
   double fastest_hz = 0.0;  ///< dynamics::find_coupler_frequencies [Hz]
 };
 
-/// Two bodies that may touch, at the start.
+/// Two bodies that may be in contact, at the start.
 struct ContactCheck {
   std::string pair;
   double gap = 0.0;  ///< negative where they overlap [m]
@@ -45,7 +45,7 @@ struct Pace {
   double seconds = 0.0;  ///< wall time of them [s]
   std::string failure;   ///< why they ended early; empty: they did not
   std::optional<double> run_seconds;  ///< wall time of all steps of the run [s]
-  /// Of the motion, what a coarse pass covered, if there was one [-].
+  /// Fraction of the motion that a coarse pass covered, if there was one [-].
   std::optional<double> scouted;
   bool is_verified = false;  ///< by several passes, mostly three
 };
@@ -57,7 +57,7 @@ struct CostCheck {
   std::size_t file_bytes = 0;    ///< of results.h5
 };
 
-/// What is known of a scene before it is run.
+/// Properties of a scene that are known before it is run.
 struct SceneCheck {
   std::string scenario;                   ///< its file
   dynamics::SimulationSettings settings;  ///< as given, or chosen
@@ -73,7 +73,7 @@ struct SceneCheck {
   std::optional<double> stable_step;
   std::vector<ContactCheck> contacts;
   std::vector<ControllerCheck> controllers;
-  std::vector<std::string> silent;    ///< parts that cannot answer
+  std::vector<std::string> silent;    ///< parts without effect
   std::vector<std::string> problems;  ///< that end the run
   std::vector<std::string> warnings;
   std::vector<std::string> choices;  ///< defaults, and why
@@ -91,7 +91,8 @@ struct SceneCheck {
 };
 
 [[nodiscard]] Json to_json(const SceneCheck& check);
-/// At most a screen: of many bodies, joints and contacts those that matter.
+/// At most one screen: of many bodies, joints and contacts the most important
+/// ones.
 [[nodiscard]] std::string to_text(const SceneCheck& check);
 
 }  // namespace limber::app

@@ -145,8 +145,8 @@ Json describe_results(const std::filesystem::path& file) {
 
 Json describe_field(const flexbody::ProjectedField& field) {
   return Json{{"modes", to_json(MatrixX(field.eta))},
-              {"rigid_share", field.rigid_share},
-              {"missed_share", field.missed_share}};
+              {"rigid_share", field.rigid_fraction},
+              {"missed_share", field.missed_fraction}};
 }
 
 }  // namespace

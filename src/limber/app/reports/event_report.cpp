@@ -12,7 +12,7 @@ using dynamics::Event;
 
 constexpr std::size_t kMostEventLines = 10;
 constexpr std::size_t kMostMarks = 12;
-/// Width of a mark's label, as a share of the picture's.
+/// Width of a mark's label, as a fraction of the picture's.
 constexpr double kLabelWidth = 0.015;
 /// Characters that fit along a mark.
 constexpr std::size_t kMostLetters = 48;

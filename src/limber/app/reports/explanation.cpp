@@ -169,12 +169,12 @@ std::string describe_energy(const RunSummary& run) {
                     text.empty() ? "energy" : "", row.name, row.in, row.out,
                     row.dissipated);
   }
-  if (run.open_share) {
+  if (run.unbalanced_fraction) {
     text += fmt::format(
         "{:<9} {}\n", text.empty() ? "energy" : "",
-        *run.open_share > 0.0
+        *run.unbalanced_fraction > 0.0
             ? fmt::format("error {:.1e} of the throughput, most in {}",
-                          *run.open_share, run.open_place)
+                          *run.unbalanced_fraction, run.open_place)
             : "error within round-off");
   }
   return text;
@@ -188,7 +188,7 @@ std::string describe_next(const RunSummary& run) {
                         i + 1, step.what, step.why);
     ++i;
   }
-  return text.empty() ? "try       nothing that the record suggests\n" : text;
+  return text.empty() ? "try       no suggestions from this record\n" : text;
 }
 
 std::string describe_warnings(const RunSummary& run) {
@@ -223,7 +223,8 @@ Json explain(const RunSummary& run) {
       {"events", to_json(run.events)},
       {"seconds", run.seconds},
       {"seconds_by_part", run.parts},
-      {"energy_error", run.open_share ? Json(*run.open_share) : Json(nullptr)},
+      {"energy_error", run.unbalanced_fraction ? Json(*run.unbalanced_fraction)
+                                               : Json(nullptr)},
       {"carried", Json::array()},
       {"warnings", run.warnings},
       {"try", Json::array()}};

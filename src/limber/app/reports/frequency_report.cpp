@@ -23,7 +23,8 @@ void warn(FrequencyReport& f) {
   if (m.imbalance.matters) {
     f.warnings.push_back(describe_imbalance(m.imbalance, m.is_moving));
   }
-  if (m.change > kTellChange) f.warnings.push_back(describe_change(m.change));
+  if (m.change > kReportedChange)
+    f.warnings.push_back(describe_change(m.change));
 }
 
 std::string name_whirl(const dynamics::NaturalMode& mode) {
@@ -67,8 +68,7 @@ std::string describe_mode(const FrequencyReport& f,
     add(name_whirl(m));
   }
   if (m.axes_w_W != find_spin(f)) {
-    add(fmt::format("seen from axes that turn at {:.6g} rad/s",
-                    m.axes_w_W.norm()));
+    add(fmt::format("in axes that rotate at {:.6g} rad/s", m.axes_w_W.norm()));
   }
   return text;
 }
@@ -141,7 +141,7 @@ std::string to_text(const FrequencyReport& f, int count) {
   const Vector3 w = find_spin(f);
   if (!w.isZero(0.0)) {
     text += fmt::format(
-        "seen from axes that turn with it, at ({:.6g}, {:.6g}, {:.6g}) rad/s\n",
+        "in axes that rotate with it, at ({:.6g}, {:.6g}, {:.6g}) rad/s\n",
         w.x(), w.y(), w.z());
   }
   text += fmt::format("{:>5}  {:>14}  {:>13}\n", "", "frequency [Hz]",

@@ -85,7 +85,7 @@ std::string describe_rotation(const runs::BodyLevel& level) {
   const Boundaries b = find_boundaries(level);
   std::string text = fmt::format(
       "  peaks        alpha {:.3g} rad/s^2 at {:.4g} s, Omega {:.3g} rad/s at "
-      "{:.4g} s, turned {:.3g} rad\n",
+      "{:.4g} s, rotated {:.3g} rad\n",
       peaks.alpha.value, peaks.alpha.time, peaks.Omega.value, peaks.Omega.time,
       peaks.angle);
   text += fmt::format(
@@ -140,8 +140,8 @@ Json to_json(const runs::BodyLevel& level) {
       {"angle", peaks.angle},
       {"deformation", describe_peak(peaks.deformation)},
       {"displacement", describe_peak(peaks.total)},
-      {"interface_rotation", describe_peak(peaks.turn)},
-      {"relative_interface_rotation", describe_peak(peaks.relative_turn)},
+      {"interface_rotation", describe_peak(peaks.rotation)},
+      {"relative_interface_rotation", describe_peak(peaks.relative_rotation)},
       {"static_displacement_of_loads", describe_peak(peaks.loads)},
       {"static_displacement_of_inertia", describe_peak(peaks.inertial)}};
   if (level.bound) json["boundary"] = describe_boundaries(level);
@@ -161,7 +161,7 @@ Json to_json(const runs::BodyLevel& level) {
         Json{{"contact", impact.pair},
              {"duration", impact.duration},
              {"highest_frequency_hz", impact.frequency},
-             {"periods", impact.share()},
+             {"periods", impact.fraction()},
              {"enough", impact.is_enough()},
              {"modes", impact.modes},
              {"modes_needed",
@@ -186,28 +186,23 @@ std::string to_text(const runs::BodyLevel& level) {
   const dynamics::BodyPeaks& peaks = level.peaks;
   const dynamics::LevelAdvice& advice = level.advice;
   std::string text = fmt::format(
-      "{}, asked to be {}\n"
-      "  neglect      {:.3g} m, linear to {:.3g} m\n",
+      "{}, requested {}\n  neglect      {:.3g} m, linear to {:.3g} m\n",
       level.name, to_string(level.used), level.limits.displacement,
       level.limits.linear_limit);
   text += describe_rotation(level);
   text += fmt::format(
       "  displacement loads {:.3g} m at {:.4g} s, inertia {:.3g} m at {:.4g} s "
-      "(static); with\n"
-      "               oscillation {:.3g} m at {:.4g} s, of its own nodes "
-      "{:.3g} "
-      "m at {:.4g} s\n"
-      "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m, "
-      "coupled {:.3g} m,\n"
-      "               nonlinear {:.3g} m\n"
-      "  buckling     tension {:.3g}, compression {:.3g} of the load; "
-      "interfaces turn by {:.3g} rad\n",
+      "(static); with\n               oscillation {:.3g} m at {:.4g} s, of its "
+      "own nodes {:.3g} m at {:.4g} s\n  left out     rigid {:.3g} m, "
+      "uncoupled {:.3g} m, one-way {:.3g} m, coupled {:.3g} m,\n               "
+      "nonlinear {:.3g} m\n  buckling     tension {:.3g}, compression {:.3g} "
+      "of the load; interfaces rotate by {:.3g} rad\n",
       peaks.loads.value, peaks.loads.time, peaks.inertial.value,
       peaks.inertial.time, peaks.total.value, peaks.total.time,
       peaks.deformation.value, peaks.deformation.time, advice.errors.rigid,
       advice.errors.uncoupled, advice.errors.one_way, advice.errors.coupled,
       advice.errors.nonlinear, peaks.tension.value, peaks.compression.value,
-      peaks.turn.value);
+      peaks.rotation.value);
   text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
                       advice.reason);
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {

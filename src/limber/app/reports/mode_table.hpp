@@ -6,8 +6,8 @@
 
 namespace limber::app {
 
-/// The study of `limber modes`, as JSON and as text. Shares are in percent of
-/// the total over all modes of the mesh.
+/// The study of `limber modes`, as JSON and as text. Fractions are in percent
+/// of the total over all modes of the mesh.
 [[nodiscard]] Json to_json(const flexbody::ModeStudy& study);
 void print_text(const flexbody::ModeStudy& study);
 

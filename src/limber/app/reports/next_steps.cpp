@@ -34,13 +34,13 @@ const RunSummary::Steps* find_limit(const RunSummary& run,
   return nullptr;
 }
 
-double share_of(const RunSummary& run, const std::string& by) {
+double fraction_of(const RunSummary& run, const std::string& by) {
   const RunSummary::Steps* limit = find_limit(run, by);
   const double all = count_parts(run);
   return limit == nullptr || all == 0.0 ? 0.0 : limit->count / all;
 }
 
-double share_of_time(const RunSummary& run, const char* part) {
+double fraction_of_time(const RunSummary& run, const char* part) {
   const auto found = run.parts.find(part);
   return found == run.parts.end() || !(run.seconds > 0.0)
              ? 0.0
@@ -86,7 +86,7 @@ void add_end(const RunSummary& run, Weighted& all) {
     all.insert({10.0,
                 {fmt::format("limber run {} --resume --out '{}'",
                              name_scenario(run), run.folder),
-                 "a checkpoint is there, from which the run continues"}});
+                 "there is a checkpoint from which the run can continue"}});
   }
   if (run.end != RunEnd::failed) return;
   add_integrator(run, all);
@@ -98,23 +98,21 @@ void add_end(const RunSummary& run, Weighted& all) {
           fmt::format("the run failed with the tolerance of {:.3g} m",
                       run.tolerance)}});
   } else if (failed != nullptr) {
-    all.insert(
-        {9.0,
-         {fmt::format("--set time.step={:.3g}", failed->shortest),
-          fmt::format("{:.0f} parts of halved steps went through before the "
-                      "failure, the shortest of that length",
-                      failed->count)}});
+    all.insert({9.0,
+                {fmt::format("--set time.step={:.3g}", failed->shortest),
+                 fmt::format("{:.0f} parts of halved steps succeeded before "
+                             "the failure; the shortest had that length",
+                             failed->count)}});
   } else {
     all.insert({9.0,
                 {fmt::format("--set time.step={:.3g}", 0.1 * run.step),
-                 fmt::format("steps of {:.3g} s went through until the one "
-                             "that failed",
+                 fmt::format("steps of {:.3g} s succeeded until one failed",
                              run.step)}});
   }
   all.insert({8.0,
               {fmt::format("limber view '{}'", run.folder),
-               fmt::format("the results until the failure at {:.6g} s are "
-                           "there, and show what moves too far",
+               fmt::format("the results until the failure at {:.6g} s were "
+                           "saved and show what moves too far",
                            run.reached)}});
   all.insert({7.0,
               {"limber check " + name_scenario(run),
@@ -129,11 +127,13 @@ bool has_level(const RunSummary& run, const std::string& level) {
 }
 
 void add_energy(const RunSummary& run, Weighted& all) {
-  if (!run.open_share || !(*run.open_share > dynamics::kToldDrift)) return;
+  if (!run.unbalanced_fraction ||
+      !(*run.unbalanced_fraction > dynamics::kReportedDrift))
+    return;
   const std::string why =
       fmt::format("the energy error is {:.2g} % of the throughput, most in {}",
-                  100.0 * *run.open_share, run.open_place);
-  const double weight = 5.0 + *run.open_share;
+                  100.0 * *run.unbalanced_fraction, run.open_place);
+  const double weight = 5.0 + *run.unbalanced_fraction;
   if (run.tolerance > 0.0) {
     all.insert(
         {weight,
@@ -149,11 +149,11 @@ void add_energy(const RunSummary& run, Weighted& all) {
   if (!can_conserve) return;
   all.insert({weight - 0.5,
               {"--set time.integrator=energy-conserving",
-               why + "; that scheme keeps it to round-off"}});
+               why + "; that scheme conserves it to round-off"}});
 }
 
 void add_limits(const RunSummary& run, Weighted& all) {
-  if (const double impacts = share_of(run, "impact"); impacts > kMany) {
+  if (const double impacts = fraction_of(run, "impact"); impacts > kMany) {
     all.insert(
         {3.0 + impacts,
          {"fewer steps in an impact: --set time.impact_steps=10 (default 20)",
@@ -161,24 +161,24 @@ void add_limits(const RunSummary& run, Weighted& all) {
                       "of '{}'; restitution becomes less exact",
                       100.0 * impacts, find_most(run.by_pair))}});
   }
-  if (const double tolerance = share_of(run, "tolerance");
+  if (const double tolerance = fraction_of(run, "tolerance");
       tolerance > 0.5 && run.steps > 0) {
     all.insert(
         {2.0 + tolerance,
          {fmt::format("--set time.tolerance={:.3g}", 10.0 * run.tolerance),
-          fmt::format("the tolerance limited {:.0f} % of the steps, "
-                      "most by the motion of '{}'; ten times of it "
-                      "halves their number",
-                      100.0 * tolerance, find_most(run.by_body))}});
+          fmt::format(
+              "the tolerance limited {:.0f} % of the steps, most by the motion "
+              "of '{}'; a tolerance ten times larger halves their number",
+              100.0 * tolerance, find_most(run.by_body))}});
   }
-  if (const double marks = share_of(run, "breakpoint"); marks > kMany) {
+  if (const double marks = fraction_of(run, "breakpoint"); marks > kMany) {
     all.insert({2.5 + marks,
                 {"a longer time.output_interval",
                  fmt::format("{:.0f} % of the steps are short because of "
                              "outputs, samples or jumps of loads",
                              100.0 * marks)}});
   }
-  if (const double waves = share_of(run, "oscillation"); waves > kMany) {
+  if (const double waves = fraction_of(run, "oscillation"); waves > kMany) {
     all.insert({1.5 + waves,
                 {"--unset time.tolerance with a step",
                  fmt::format("{:.0f} % of the steps follow the period of a "
@@ -232,7 +232,7 @@ void add_checks(const RunSummary& run, Weighted& all) {
                  "them by cause"}});
   }
   if (run.tolerance == 0.0 && run.integrator == "generalized-alpha" &&
-      share_of(run, "given") > 0.9) {
+      fraction_of(run, "given") > 0.9) {
     all.insert(
         {0.8,
          {run.step_changes > 0 ? "--unset time.steps" : "--unset time.step",
@@ -242,16 +242,17 @@ void add_checks(const RunSummary& run, Weighted& all) {
 }
 
 void add_time(const RunSummary& run, Weighted& all) {
-  if (const double contact = share_of_time(run, "contact");
+  if (const double contact = fraction_of_time(run, "contact");
       contact > kMuchTime && !run.meshed.empty()) {
     all.insert({3.0 + contact,
                 {fmt::format("a primitive <collision> shape for '{}'",
                              run.meshed.front()),
-                 fmt::format("contact took {:.0f} % of the time, and that "
-                             "touches by a mesh",
+                 fmt::format("contact took {:.0f} % of the time, and the "
+                             "contact shape of that link is a mesh",
                              100.0 * contact)}});
   }
-  if (const double outputs = share_of_time(run, "outputs"); outputs > kMany) {
+  if (const double outputs = fraction_of_time(run, "outputs");
+      outputs > kMany) {
     all.insert(
         {2.0 + outputs,
          {"a longer time.output_interval, or fewer probes of stress",
@@ -260,7 +261,7 @@ void add_time(const RunSummary& run, Weighted& all) {
   const double all_steps = static_cast<double>(std::max(run.steps, 1L));
   const double iterations = static_cast<double>(run.iterations) / all_steps;
   if (iterations > kManyIterations && run.tolerance == 0.0 &&
-      share_of(run, "impact") < kMany) {
+      fraction_of(run, "impact") < kMany) {
     all.insert({2.0,
                 {fmt::format("--set time.step={:.3g}", 0.5 * run.step),
                  fmt::format("Newton's method took {:.1f} iterations a step, "
@@ -269,14 +270,15 @@ void add_time(const RunSummary& run, Weighted& all) {
   }
   add_level(run, all);
   if (run.end == RunEnd::finished && run.tolerance == 0.0 && run.halved == 0 &&
-      run.open_share && *run.open_share < kLittleError &&
-      share_of(run, "given") > 0.9 && iterations < 3.0) {
-    all.insert({1.0,
-                {fmt::format("--set time.step={:.3g}", 2.0 * run.step),
-                 fmt::format("the energy error is below {:g} of the "
-                             "throughput, and Newton's method takes {:.1f} "
-                             "iterations a step: a longer one may do",
-                             kLittleError, iterations)}});
+      run.unbalanced_fraction && *run.unbalanced_fraction < kLittleError &&
+      fraction_of(run, "given") > 0.9 && iterations < 3.0) {
+    all.insert(
+        {1.0,
+         {fmt::format("--set time.step={:.3g}", 2.0 * run.step),
+          fmt::format(
+              "the energy error is below {:g} of the throughput, and Newton's "
+              "method takes {:.1f} iterations a step: a longer one may suffice",
+              kLittleError, iterations)}});
   }
 }
 

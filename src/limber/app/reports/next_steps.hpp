@@ -8,7 +8,7 @@
 
 namespace limber::app {
 
-/// Something to try, and what of the record suggests it.
+/// A suggestion, and its reason in the record.
 struct NextStep {
   std::string what;
   std::string why;

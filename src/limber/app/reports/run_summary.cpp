@@ -29,12 +29,12 @@ bool has_file(const fs::path& folder, const char* name) {
   std::string what = "has neither summary.json nor checkpoint.bin of a run";
   if (has_file(folder, "study.sqlite")) {
     what =
-        "is of a study; simulate one of its runs by limber run --from "
+        "belongs to a study; simulate one of its runs by limber run --from "
         "FOLDER/study.sqlite#RUN, and explain that";
   } else if (has_file(folder, "comparison.json")) {
-    what = "is of a comparison; explain one of the runs in its folders";
+    what = "belongs to a comparison; explain one of the runs in its folders";
   } else if (has_file(folder, "advice.json")) {
-    what = "is of limber advise, which keeps no record of its run";
+    what = "belongs to limber advise, which keeps no record of its run";
   }
   throw InputError(fmt::format("'{}' {}", folder.string(), what));
 }
@@ -88,7 +88,7 @@ void read_steps(const Json& json, RunSummary& run) {
 
 void read_energy(const Json& json, RunSummary& run) {
   if (json.empty()) return;
-  run.open_share = json.at("open_share").get<double>();
+  run.unbalanced_fraction = json.at("open_share").get<double>();
   run.open_place = read_text(json.at("place"));
   for (const Json& row : json.at("rows")) {
     run.rows.push_back(
@@ -133,7 +133,7 @@ void read_json(const fs::path& file, RunSummary& run) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
     throw InputError(
-        fmt::format("'{}' is damaged: it is not complete JSON", file.string()));
+        fmt::format("'{}' is damaged: its JSON is incomplete", file.string()));
   }
   try {
     if (!json.contains("steps")) {
@@ -171,9 +171,9 @@ std::string find_most(const std::map<std::string, double>& counts) {
 RunSummary read_run_summary(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    throw InputError(
-        fmt::format("'{}' is not a folder; give the results folder of a run",
-                    folder.string()));
+    throw InputError(fmt::format(
+        "'{}' is not a folder; expected the results folder of a run",
+        folder.string()));
   }
   RunSummary run;
   run.folder = folder.string();

@@ -19,7 +19,7 @@ enum class RunEnd {
   killed,   ///< only its checkpoint is there
 };
 
-/// What a run recorded, as its results folder has it.
+/// Record of a run, as stored in its results folder.
 struct RunSummary {
   struct Steps {
     std::string by;  ///< name of a StepCause
@@ -56,7 +56,7 @@ struct RunSummary {
   std::map<std::string, double> by_pair;  ///< counts of parts by its impacts
   std::vector<std::string> meshed;        ///< bodies that touch by a mesh
   std::vector<dynamics::Event> events;
-  std::optional<double> open_share;  ///< largest energy error [-]
+  std::optional<double> unbalanced_fraction;  ///< largest energy error [-]
   std::string open_place;
   std::vector<dynamics::EnergyRow> rows;
   std::vector<Level> levels;
@@ -70,7 +70,7 @@ struct RunSummary {
 
 /// Reads the record of a run: summary.json, or the checkpoint of a run that was
 /// killed.
-/// @throws InputError if the folder has neither, naming what it is instead, or
+/// @throws InputError if the folder has neither, stating its kind, or
 /// if they are damaged or of another version.
 [[nodiscard]] RunSummary read_run_summary(const std::filesystem::path& folder);
 

@@ -64,9 +64,10 @@ void add_loads(const scene::BuiltScene& built,
     const dynamics::BodyIndex body =
         built.model.attachments[index(load.where)].body;
     if (is_fixed(built, body)) {
-      silent.push_back(fmt::format(
-          "load '{}' moves nothing: it acts on what is fixed in the world",
-          load.name));
+      silent.push_back(
+          fmt::format("load '{}' has no effect: it acts on a body that is "
+                      "fixed in the world",
+                      load.name));
     } else if ((load.force.isZero(0.0) && load.moment.isZero(0.0)) ||
                is_zero(load.function, built.initial.t, end)) {
       silent.push_back(fmt::format(
@@ -192,8 +193,8 @@ void add_contacts(const scene::Scene& scene, const scene::BuiltScene& built,
     const double travel = kTravelMargin * (*travel_A + *travel_B);
     if (!(start.gap > travel)) continue;
     silent.push_back(fmt::format(
-        "contact '{}' never touches: {:.3g} m lie between both, whose joints "
-        "let them come nearer by {:.3g} m at most",
+        "contact '{}' cannot occur: the bodies are {:.3g} m apart, and their "
+        "joints let them approach each other by at most {:.3g} m",
         start.pair->name, start.gap, travel));
   }
 }
@@ -212,7 +213,7 @@ void add_shapes(const scene::Scene& scene, std::vector<std::string>& silent) {
   }
   if (names.empty()) return;
   silent.push_back(fmt::format(
-      "the shape of '{}'{} touches nothing: no [[contact]] names it",
+      "the shape of '{}'{} has no effect: no [[contact]] names it",
       names.front(),
       names.size() == 1 ? ""
                         : fmt::format(" (and of {} more)", names.size() - 1)));

@@ -10,9 +10,9 @@
 
 namespace limber::app {
 
-/// A message for each probe whose values are known before the run, load that
-/// moves nothing, and contact that can never touch; and one for all bodies
-/// with a <collision> or radius that no contact names.
+/// A message for each probe whose values are known before the run, load without
+/// effect, and contact that can never occur; and one for all bodies with a
+/// <collision> or radius that no contact names.
 ///
 /// Equation   a link of a tree stays within a ball about the joint that carries
 ///            its branch: the sum of the distances between joints, of the

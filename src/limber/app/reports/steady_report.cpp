@@ -9,7 +9,7 @@ std::string describe_imbalance(const dynamics::Imbalance& imbalance,
                                bool is_moving, const LinearisedAt& at) {
   std::string text =
       fmt::format("{} is {}: ", at.where,
-                  is_moving ? "no steady motion" : "not an equilibrium");
+                  is_moving ? "not a steady motion" : "not an equilibrium");
   // Of modes a weighted acceleration, and no force of the scene.
   if (imbalance.force > 0.0) {
     text += fmt::format(
@@ -18,10 +18,11 @@ std::string describe_imbalance(const dynamics::Imbalance& imbalance,
         imbalance.force_body, imbalance.force);
   }
   if (imbalance.moment > 0.0) {
-    text += fmt::format("{:.4g} N m are left on body '{}', ", imbalance.moment,
-                        imbalance.moment_body);
+    text += fmt::format("a moment of {:.4g} N m on body '{}' is unbalanced, ",
+                        imbalance.moment, imbalance.moment_body);
   }
-  text += fmt::format("and {} of the forces as they are there", at.result);
+  text +=
+      fmt::format("and {} only valid for the forces at that state", at.result);
   if (!is_moving) {
     text += "; [initial] equilibrium = true starts from the equilibrium";
   }

@@ -8,7 +8,7 @@
 /// Texts about the limits of a linearisation.
 namespace limber::app {
 
-/// Words for the reference state of a linearisation and for its result.
+/// Texts for the reference state of a linearisation and for its result.
 struct LinearisedAt {
   std::string where = "the start";  ///< "the start", "the state at 1 s"
   std::string result =
@@ -26,6 +26,6 @@ struct LinearisedAt {
                                           const LinearisedAt& at = {});
 
 /// Changes beyond this are reported [-].
-inline constexpr double kTellChange = 1e-6;
+inline constexpr double kReportedChange = 1e-6;
 
 }  // namespace limber::app

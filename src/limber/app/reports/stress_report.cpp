@@ -149,7 +149,7 @@ Json to_json(const std::vector<StressPeak>& peaks) {
              {"layer", peak.layer.empty() ? Json(nullptr) : Json(peak.layer)},
              {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
              {"averaging_error", or_null(peak.averaging_error)},
-             {"correction_share", or_null(peak.correction_share)}});
+             {"correction_share", or_null(peak.correction_fraction)}});
   }
   return json;
 }
@@ -170,7 +170,7 @@ std::string to_text(const std::vector<StressPeak>& peaks) {
                     fmt::format("({:.4g}, {:.4g}, {:.4g})", peak.p_L.x(),
                                 peak.p_L.y(), peak.p_L.z()),
                     peak.time, to_percent(peak.averaging_error),
-                    to_percent(peak.correction_share));
+                    to_percent(peak.correction_fraction));
   }
   return text;
 }

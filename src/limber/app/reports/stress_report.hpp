@@ -29,7 +29,7 @@ struct StressPeak {
   /// At that node and time, von Mises stress of the static-deformation modes
   /// over that of all modes, which eigenmodes alone would lack; none if the
   /// kinds of modes are unknown [-].
-  std::optional<double> correction_share;
+  std::optional<double> correction_fraction;
 };
 
 /// One for each link whose stress [output] requests and that was deformed.

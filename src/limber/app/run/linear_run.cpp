@@ -75,7 +75,7 @@ void add_linear_warnings(const std::string& where, LinearRun& run) {
     warnings.push_back(
         describe_imbalance(system.imbalance, system.is_moving, at));
   }
-  if (system.change > kTellChange) {
+  if (system.change > kReportedChange) {
     warnings.push_back(describe_change(system.change, at));
   }
   const auto& more = run.linear.warnings;
@@ -91,10 +91,10 @@ void truncate(int states, LinearRun& run) {
   record.bound = run.truncated->bound;
   const Eigen::Index left = record.model.A.rows();
   if (left == states) return;
-  record.warnings.push_back(fmt::format(
-      "the model has {} states in place of {}; what the others add from "
-      "inputs to outputs is less than round-off",
-      left, states));
+  record.warnings.push_back(
+      fmt::format("the model has {} states in place of {}; the contribution of "
+                  "the others from inputs to outputs is below round-off",
+                  left, states));
 }
 
 void close_loops(const LinearRequest& request,

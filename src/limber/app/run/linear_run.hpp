@@ -35,7 +35,7 @@ struct LinearRequest {
 struct LinearRun {
   scene::LinearScene linear;  ///< with all states
   std::optional<dynamics::TruncatedModel> truncated;
-  results::LinearRecord record;    ///< the model that was asked for
+  results::LinearRecord record;    ///< the requested model
   std::vector<std::string> notes;  ///< as scene::BuiltScene
 };
 

@@ -121,8 +121,8 @@ void replace_in_all(std::vector<std::string>& problems, const fs::path& made,
 
 std::optional<fs::path> make_rescue_folder() {
   constexpr const char* kPrefix = "limber-results-";
-  const char* const asked = std::getenv("TMPDIR");
-  const fs::path temporary = asked == nullptr ? "/tmp" : asked;
+  const char* const requested = std::getenv("TMPDIR");
+  const fs::path temporary = requested == nullptr ? "/tmp" : requested;
   for (const fs::path& prefix : {temporary / kPrefix, fs::path(kPrefix)}) {
     try {
       return make_private_folder(prefix);
@@ -158,8 +158,9 @@ void remove_folder(const fs::path& folder) {
     OutputFolder(folder).write([](const fs::path&) {});
     fs::remove(folder / kList, error);
   } catch (const InputError& problem) {
-    print_warnings({fmt::format("'{}' is of an earlier command and stays: {}",
-                                folder.string(), problem.what())});
+    print_warnings(
+        {fmt::format("'{}' belongs to an earlier command and is kept: {}",
+                     folder.string(), problem.what())});
     return;
   }
   fs::remove(folder, error);

@@ -32,7 +32,7 @@ class OutputFolder {
   /// removes those of an earlier command that are not among them.
   void claim(const std::set<std::string>& folders);
 
-  /// Lets `writer` write all files to a temporary folder beside their
+  /// Has `writer` write all files to a temporary folder next to their
   /// destination and then moves them there. If that fails, they are written to
   /// a new folder that only the user may read, in TMPDIR, /tmp or the current
   /// folder. If `writer` fails in every folder, its partial output is kept.

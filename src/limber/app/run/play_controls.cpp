@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-constexpr double kSomeTumble = 1.0;  // of what does not turn [rad/s]
+constexpr double kSomeTumble = 1.0;  // of a body that does not rotate [rad/s]
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 
 using Controls = std::vector<view::PlayControl>;

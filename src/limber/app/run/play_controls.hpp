@@ -9,7 +9,7 @@
 
 namespace limber::app {
 
-/// The values of a scene that a playground lets its visitors change: of loads
+/// The values of a scene that users of a playground can change: of loads
 /// (force, moment, place, duration), how bodies move at the start, contacts
 /// (restitution, friction), the level, the modes that are kept, the damping of
 /// links' materials, and the steps or the tolerance. Of keys of its files only

@@ -29,7 +29,7 @@ constexpr InputKind kSceneFile = {"file of a scene", std::uint64_t{1} << 28};
 constexpr InputKind kFlatBody = {"flat body", std::uint64_t{1} << 31};
 constexpr std::size_t kMostOutputs = 200;
 
-/// Paths of the files that a scene reads, but for meshes of flexible links.
+/// Paths of the files that a scene reads, except for meshes of flexible links.
 std::set<fs::path> list_files(const scene::Scene& scene) {
   std::set<fs::path> files = {scene.scenario.file};
   if (!scene.scenario.robot.empty()) files.insert(scene.scenario.robot);
@@ -113,18 +113,18 @@ void refuse_full(const scene::Scene& scene) {
         scene.scenario.level_of(link.name) != dynamics::Fidelity::full) {
       continue;
     }
-    throw InputError(fmt::format(
-        "link '{}' has level full, for which a page lacks the mesh; take "
-        "another level",
-        link.name));
+    throw InputError(
+        fmt::format("link '{}' has level full, for which a page lacks the "
+                    "mesh; choose another level",
+                    link.name));
   }
 }
 
 [[noreturn]] void refuse_needs(const std::string& what) {
-  throw InputError(fmt::format(
-      "a page takes along the scenario, its robots and the meshes of their "
-      "shapes, and this scene needs more: {}",
-      what));
+  throw InputError(
+      fmt::format("a page contains only the scenario, its robots and the "
+                  "meshes of their shapes; this scene also needs: {}",
+                  what));
 }
 
 /// Files of fields on nodes, which are read with a mesh.

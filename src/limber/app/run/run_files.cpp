@@ -20,10 +20,10 @@ namespace {
 /// Addition to a picture's title if energy was gained or lost.
 std::string describe_open(const runs::Run& run) {
   const dynamics::EnergyDrift& energy = run.record.energy.worst;
-  const double share = dynamics::find_open_share(energy);
-  if (!(share > dynamics::kToldDrift)) return "";
-  return fmt::format(" ({:.2g} % open at {:.4g} s, most in {})", 100.0 * share,
-                     energy.drift.time, energy.place);
+  const double fraction = dynamics::find_unbalanced_fraction(energy);
+  if (!(fraction > dynamics::kReportedDrift)) return "";
+  return fmt::format(" (energy error {:.2g} % at {:.4g} s, most in {})",
+                     100.0 * fraction, energy.drift.time, energy.place);
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ Json summarize_energy(const results::History& history,
   const std::optional<double> relative = energy.relative();
   json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
   json["largest_drift"] = describe_extreme(record.drift);
-  json["open_share"] = dynamics::find_open_share(record.worst);
+  json["open_share"] = dynamics::find_unbalanced_fraction(record.worst);
   json["place"] = record.worst.place;
-  json["place_share"] = record.worst.share;
+  json["place_share"] = record.worst.place_error;
   json["rows"] = describe_rows(record.rows);
   json["peaks"] = {{"stored", describe_extreme(record.stored)},
                    {"kinetic", describe_extreme(record.kinetic)},

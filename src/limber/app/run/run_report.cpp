@@ -115,8 +115,8 @@ void raise_failure(const runs::Run& run, const std::filesystem::path& folder) {
 
 // Prints the report completely before pictures are drawn. Errors of the stream
 // are reported at the end of the command.
-void tell_run(const runs::Run& run, const std::filesystem::path& folder,
-              bool json) {
+void report_run(const runs::Run& run, const std::filesystem::path& folder,
+                bool json) {
   if (json) {
     Json summary = summarize(run);
     summary["folder"] = folder.string();
@@ -131,7 +131,7 @@ void tell_run(const runs::Run& run, const std::filesystem::path& folder,
 
 void finish_run(const runs::Run& run, const OutputFolder& folder, bool json) {
   print_warnings(runs::find_level_warnings(run.levels));
-  if (!run.failure) tell_run(run, folder.path(), json);
+  if (!run.failure) report_run(run, folder.path(), json);
   if (has_pictures(run)) {
     folder.add(
         [&](const std::filesystem::path& place) { draw_run(run, place); });

@@ -81,8 +81,7 @@ void add_choices(const scene::Scene& scene, const scene::BuiltScene& built,
   }
   if (unset > 0) {
     choices.push_back(fmt::format(
-        "stiffness of {} of {} joints by their bodies, as it is not given: "
-        "{:g} "
+        "stiffness of {} of {} joints by their bodies, as none is given: {:g} "
         "times that of a flexible side, or {:g} Hz of two rigid ones",
         unset, joints, dynamics::kStiffnessRatio, dynamics::kRigidFrequency));
   }

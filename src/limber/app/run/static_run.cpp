@@ -46,7 +46,7 @@ void add_static_warnings(const runs::Reductions& reductions, StaticRun& run) {
   const auto levels = runs::find_level_warnings(level_observer.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
   const auto holds =
-      dynamics::find_hold_warnings(run.built.model, run.found.state);
+      dynamics::find_constraint_warnings(run.built.model, run.found.state);
   run.warnings.insert(run.warnings.end(), holds.begin(), holds.end());
   if (is_unstable(run.report)) {
     run.warnings.push_back(fmt::format(
@@ -59,11 +59,11 @@ void add_static_warnings(const runs::Reductions& reductions, StaticRun& run) {
 /// Newton's method may jump to another branch in one load step, as beyond
 /// buckling. In small ones it follows that of the start.
 void follow_branch(StaticRun& run, const Progress& progress) {
-  constexpr double kShare = 0.05;
+  constexpr double kFraction = 0.05;
   if (run.method != dynamics::EquilibriumMethod::newton) return;
   try {
     const dynamics::Equilibrium found = find_equilibrium(
-        run.built.model, run.built.initial, {.largest_share = kShare},
+        run.built.model, run.built.initial, {.largest_fraction = kFraction},
         runs::number_stage(progress, 2, 2));
     const StaticReport stable = report_equilibrium(run.built, found);
     if (is_unstable(stable)) return;
@@ -77,9 +77,9 @@ void follow_branch(StaticRun& run, const Progress& progress) {
 /// Magnifies small displacements to be visible.
 double find_exaggeration(const dynamics::Equilibrium& found) {
   constexpr double kSeen = 0.1;  // of the extent
-  const double share = found.distance / found.extent;
-  if (share == 0.0 || share > 0.2 * kSeen) return 1.0;
-  return std::pow(10.0, std::floor(std::log10(kSeen / share)));
+  const double fraction = found.distance / found.extent;
+  if (fraction == 0.0 || fraction > 0.2 * kSeen) return 1.0;
+  return std::pow(10.0, std::floor(std::log10(kSeen / fraction)));
 }
 
 void draw(const StaticRun& run, const std::filesystem::path& file) {

@@ -8,7 +8,7 @@
 
 namespace limber::app {
 
-/// How a response goes with a factor, from -1 to 1 [-].
+/// Correlation of a response with a factor, from -1 to 1 [-].
 struct Correlation {
   double linear = 0.0;  ///< Pearson's coefficient
   double rank = 0.0;    ///< Spearman's: of the ranks, for any monotonic law
@@ -16,8 +16,8 @@ struct Correlation {
   Interval rank_interval;    ///< the same
   std::size_t samples = 0;
 
-  /// Whether the samples tell the coefficient of the ranks from 0.
-  [[nodiscard]] bool is_told() const {
+  /// Whether the coefficient of the ranks is significantly different from 0.
+  [[nodiscard]] bool is_significant() const {
     return rank_interval.low > 0.0 || rank_interval.high < 0.0;
   }
 };

@@ -15,7 +15,7 @@ namespace limber::app {
 namespace {
 
 constexpr double kBand = 0.02;       // of a settled curve [-]
-constexpr double kWatched = 0.1;     // last share of the time [-]
+constexpr double kWatched = 0.1;     // last fraction of the time [-]
 constexpr double kEven = 1e-6;       // of an interval [-]
 constexpr double kRoundoff = 1e-12;  // of an amplitude [-]
 constexpr std::size_t kFewest = 16;  // samples of a spectrum
@@ -101,9 +101,9 @@ std::optional<double> find_settling_time(std::span<const double> times,
   };
   std::size_t i = values.size() - 1;
   while (off(i) <= band) --i;  // the first one is 50 bands off
-  const double share = (off(i) - band) / (off(i) - off(i + 1));
+  const double fraction = (off(i) - band) / (off(i) - off(i + 1));
   const double time =
-      times[i] + share * (times[i + 1] - times[i]) - times.front();
+      times[i] + fraction * (times[i + 1] - times[i]) - times.front();
   const double duration = times.back() - times.front();
   if (time > (1.0 - kWatched) * duration) return std::nullopt;
   return time;

@@ -34,7 +34,7 @@ namespace limber::app {
 /// [its unit / s^order]. None for fewer than three samples, or times that are
 /// not even.
 ///
-/// Limits     low by a share (omega h)^2 / 12, of order 1 / 6, of a
+/// Limits     low by a fraction (omega h)^2 / 12, of order 1 / 6, of a
 ///            frequency omega and outputs every h: an impact needs fine outputs
 [[nodiscard]] std::optional<double> find_largest_derivative(
     std::span<const double> times, std::span<const double> values, int order);

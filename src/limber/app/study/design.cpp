@@ -113,8 +113,8 @@ Matrix sample_hypercube(std::size_t samples, std::size_t factors,
   for (std::size_t f = 0; f < factors; ++f) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::size_t i = samples; i-- > 1;) {
-      const double share = uniform.draw() * static_cast<double>(i + 1);
-      std::swap(order[i], order[static_cast<std::size_t>(share)]);
+      const double fraction = uniform.draw() * static_cast<double>(i + 1);
+      std::swap(order[i], order[static_cast<std::size_t>(fraction)]);
     }
     for (std::size_t i = 0; i < samples; ++i) {
       points[i][f] = (static_cast<double>(order[i]) + uniform.draw()) /

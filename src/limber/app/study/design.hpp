@@ -13,7 +13,7 @@ namespace limber::app {
 /// The runs of a study: for each the value of each factor, as TOML.
 using Design = std::vector<std::vector<std::string>>;
 
-/// Of a study; more are refused.
+/// Most runs of a study.
 inline constexpr int kMostRuns = 10'000'000;
 
 /// All runs. They depend on the study only, so that any machine can make any
@@ -30,10 +30,10 @@ inline constexpr int kMostRuns = 10'000'000;
 /// @throws InputError naming a factor whose values do not suit the design.
 [[nodiscard]] Design make_design(const Study& study);
 
-/// A factor's value at a share u in (0, 1) of its distribution.
+/// A factor's value at a fraction u in (0, 1) of its distribution.
 [[nodiscard]] std::string find_value(const Factor& factor, double u);
 
-/// The share u of the standard normal distribution is below this, u in (0, 1).
+/// Quantile u of the standard normal distribution, u in (0, 1).
 ///
 /// Source     Wichura (1988), algorithm AS 241, 16 digits [@wichura1988]
 [[nodiscard]] double find_normal_quantile(double u);

@@ -23,7 +23,7 @@ struct Distribution {
   double mean_error = 0.0;  ///< half the width of its interval [the same]
   double band = 0.0;        ///< the same of the distribution function [-]
 
-  /// The value that a share p in (0, 1) of the samples does not exceed.
+  /// The value that a fraction p in (0, 1) of the samples does not exceed.
   [[nodiscard]] double quantile(double p) const;
 };
 

@@ -94,8 +94,8 @@ std::vector<Sums> sum_up(const std::vector<double>& y, std::size_t factors,
 Interval find_middle(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * last))];
+  const auto at = [&](double fraction) {
+    return values[static_cast<std::size_t>(std::lround(fraction * last))];
   };
   return {at(0.025), at(0.975)};
 }
@@ -215,7 +215,7 @@ std::string find_missing_effects(const Study& study, std::size_t runs,
 
 std::string describe_doubt(const Study& study, const Effect& effect) {
   if (!effect.samples_needed) return "";
-  return fmt::format("cannot tell with {} samples; about {} may do",
+  return fmt::format("not significant with {} samples; about {} may suffice",
                      study.design.samples, *effect.samples_needed);
 }
 

@@ -16,7 +16,8 @@ struct Interval {
   [[nodiscard]] double half_width() const { return 0.5 * (high - low); }
 };
 
-/// Main and total effect of a factor on a response: shares of its variance [-].
+/// Main and total effect of a factor on a response: fractions of its variance
+/// [-].
 struct Effect {
   double main = 0.0;   ///< [-]
   double total = 0.0;  ///< [-]
@@ -27,7 +28,7 @@ struct Effect {
   std::optional<std::size_t> samples_needed = {};
 };
 
-/// Intervals with a larger half width tell nothing about a share [-].
+/// Intervals with a larger half width are meaningless for a fraction [-].
 inline constexpr double kWidestEffect = 0.25;
 /// The intervals of fewer samples are too narrow.
 inline constexpr std::size_t kFewestSamples = 32;
@@ -54,7 +55,8 @@ using Effects = std::vector<std::vector<std::optional<Effect>>>;
     const Study& study, std::size_t runs, const std::vector<StudyRow>& rows,
     std::size_t response);
 
-/// "cannot tell with 12 samples; about 256 would do"; empty if they suffice.
+/// "not significant with 12 samples; about 256 may suffice"; empty if they
+/// suffice.
 [[nodiscard]] std::string describe_doubt(const Study& study,
                                          const Effect& effect);
 

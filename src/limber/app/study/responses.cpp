@@ -178,7 +178,7 @@ class Evaluation {
     if (found.depth == parts.size()) {
       if (!found.node->is_primitive() || found.node->is_string()) {
         throw InputError(
-            fmt::format("'{}' of the summary is no number", summary.path));
+            fmt::format("'{}' of the summary is not a number", summary.path));
       }
       return to_number(*found.node);
     }
@@ -266,7 +266,7 @@ class Check {
                             find_order(column) == 0;
       if (has_none) {
         return fmt::format(
-            "'{}' has the unit '{}': an acceleration is that of a place, an "
+            "'{}' has the unit '{}': an acceleration needs a position, an "
             "angle or a velocity",
             column.name, column.unit);
       }
@@ -294,7 +294,7 @@ class Check {
       return found.node->is_number() || found.node->is_boolean() ||
                      found.node->is_null()
                  ? ""
-                 : fmt::format("'{}' of the summary is no number",
+                 : fmt::format("'{}' of the summary is not a number",
                                summary.path);
     }
     if (is_open_list(*found.node)) return "";

@@ -82,7 +82,7 @@ struct ExpressionResponse {
   std::string formula;
 };
 
-/// One number that is kept of each run.
+/// One number that is stored for each run.
 struct Response {
   std::string name;
   std::variant<ProbeResponse, ContactResponse, SummaryResponse,

@@ -27,9 +27,10 @@ Place split_place(const std::string& place) {
                        ? std::nullopt
                        : scene::to_index(place.substr(hash + 1));
   if (!run) {
-    throw InputError(fmt::format(
-        "'{}' names no run of a study; expected FILE#RUN, as study.sqlite#17",
-        place));
+    throw InputError(
+        fmt::format("'{}' is not a run of a study; expected FILE#RUN, for "
+                    "example study.sqlite#17",
+                    place));
   }
   return {place.substr(0, hash), *run};
 }
@@ -41,7 +42,7 @@ std::size_t collect_study(const std::vector<std::string>& files,
   std::error_code ignored;
   if (fs::exists(made, ignored)) {
     throw InputError(
-        fmt::format("'{}' is there already; choose another folder with --out",
+        fmt::format("'{}' already exists; choose another folder with --out",
                     made.string()));
   }
   std::map<std::size_t, std::pair<StudyRow, std::string>> rows;
@@ -54,9 +55,9 @@ std::size_t collect_study(const std::vector<std::string>& files,
       const auto differences = find_differences(
           Manifest(record.manifest), Manifest(file.record().manifest));
       if (!differences.empty()) {
-        throw InputError(fmt::format("'{}' is of another study than '{}': {}",
-                                     name, files.front(),
-                                     fmt::join(differences, "; ")));
+        throw InputError(
+            fmt::format("'{}' belongs to another study than '{}': {}", name,
+                        files.front(), fmt::join(differences, "; ")));
       }
     }
     for (StudyRow& row : file.read_rows()) {
@@ -104,10 +105,10 @@ void check_is_unchanged(const std::string& place, const fs::path& cache) {
     return text.starts_with("build of Limber");
   });
   if (differences.empty()) return;
-  throw InputError(
-      fmt::format("'{}' is of another state of '{}': {}; restore what was",
-                  found.file.string(), study.scenario.string(),
-                  fmt::join(differences, "; ")));
+  throw InputError(fmt::format(
+      "'{}' was made from another version of '{}': {}; restore that version",
+      found.file.string(), study.scenario.string(),
+      fmt::join(differences, "; ")));
 }
 
 }  // namespace limber::app

@@ -237,14 +237,14 @@ StudyRecord StudyFile::read_record() const {
   return record;
 }
 
-void StudyFile::check(const StudyRecord& asked) const {
+void StudyFile::check(const StudyRecord& requested) const {
   const StudyRecord own = read_record();
   std::vector<std::string> differences =
-      find_differences(Manifest(own.manifest), Manifest(asked.manifest));
-  if (own.shard != asked.shard || own.shards != asked.shards) {
+      find_differences(Manifest(own.manifest), Manifest(requested.manifest));
+  if (own.shard != requested.shard || own.shards != requested.shards) {
     differences.push_back(fmt::format("shard: {}/{} -> {}/{}", own.shard + 1,
-                                      own.shards, asked.shard + 1,
-                                      asked.shards));
+                                      own.shards, requested.shard + 1,
+                                      requested.shards));
   }
   if (differences.empty()) return;
   constexpr std::size_t kMostListed = 5;
@@ -253,9 +253,10 @@ void StudyFile::check(const StudyRecord& asked) const {
     differences.resize(kMostListed);
     differences.push_back(fmt::format("and {} more", count - kMostListed));
   }
-  refuse(file_, fmt::format("are of another study: {}; move it away, choose "
-                            "another with --out, or restore what was",
-                            fmt::join(differences, "; ")));
+  refuse(file_,
+         fmt::format("belong to another study: {}; move the folder away, "
+                     "choose another with --out, or restore the original input",
+                     fmt::join(differences, "; ")));
 }
 
 std::vector<StudyRow> StudyFile::read_rows() const {
@@ -284,9 +285,10 @@ std::vector<StudyRow> StudyFile::read_rows() const {
     row.error = select.text(i++);
     row.warnings = select.text(i++);
     if (select.text(i++) != digest_of(row)) {
-      refuse(file_, fmt::format("run {} is not as it was written; delete its "
-                                "row, and the study makes it again",
-                                row.run));
+      refuse(file_,
+             fmt::format("run {} was changed after it was written; delete its "
+                         "row, and the study simulates it again",
+                         row.run));
     }
     row.seconds_ready = select.number(i++).value_or(0.0);
     row.seconds = select.number(i++).value_or(0.0);

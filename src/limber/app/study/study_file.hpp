@@ -55,7 +55,7 @@ class StudyFile {
  private:
   class Database;
   void create();
-  void check(const StudyRecord& asked) const;
+  void check(const StudyRecord& requested) const;
   StudyRecord read_record() const;
 
   std::filesystem::path file_;

@@ -58,9 +58,9 @@ StudyColumn make_response(const Study& study, const std::vector<StudyRow>& rows,
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 results::Bar make_bar(double value, const std::optional<Interval>& interval,
-                      bool is_told) {
+                      bool is_significant) {
   const Interval range = interval.value_or(Interval{value, value});
-  return {is_told ? value : kNone, range.low, range.high};
+  return {is_significant ? value : kNone, range.low, range.high};
 }
 
 using TwoBars = std::optional<std::pair<results::Bar, results::Bar>>;
@@ -88,9 +88,10 @@ std::vector<results::FactorBars> make_bars(const Study& study, BarsOf bars_of) {
 TwoBars make_effect_bars(const Effects& effects, std::size_t f, std::size_t r) {
   if (f >= effects.size() || !effects[f][r]) return std::nullopt;
   const Effect& effect = *effects[f][r];
-  const bool is_told = !effect.samples_needed;
-  return std::pair(make_bar(effect.main, effect.main_interval, is_told),
-                   make_bar(effect.total, effect.total_interval, is_told));
+  const bool is_significant = !effect.samples_needed;
+  return std::pair(
+      make_bar(effect.main, effect.main_interval, is_significant),
+      make_bar(effect.total, effect.total_interval, is_significant));
 }
 
 TwoBars make_correlation_bars(const Correlations& found, std::size_t f,
@@ -149,7 +150,7 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
     return draw_bars(
         folder / "effects.png",
         study.name + ": effects of factors, with intervals of 95 %",
-        {"main", "total", "share of the variance [-]", "[*<0:1.05<*]"},
+        {"main", "total", "fraction of the variance [-]", "[*<0:1.05<*]"},
         make_bars(study, [&](std::size_t f, std::size_t r) {
           return make_effect_bars(findings.effects, f, r);
         }));

@@ -228,10 +228,9 @@ DesignSpec read_design(TomlTable& table) {
     design.seed = static_cast<std::uint64_t>(
         table.integer("seed", 0, 2147483647).value_or(0));
   } else if (table.has("samples") || table.has("seed")) {
-    table.fail(
-        fmt::format("'samples' and 'seed' are of sampled designs; this "
-                    "is a {}",
-                    to_string(design.kind)));
+    table.fail(fmt::format(
+        "'samples' and 'seed' apply only to sampled designs; this is a {}",
+        to_string(design.kind)));
     table.skip("samples");
     table.skip("seed");
   }
@@ -247,10 +246,10 @@ void check_names(const Study& study, TomlTable& root) {
     };
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
         !std::all_of(name.begin(), name.end(), is_letter)) {
-      root.fail(
-          fmt::format("{} '{}': a name has letters, digits and _ alone, "
-                      "and no digit first, so that formulas can use it",
-                      kind, echo(name)));
+      root.fail(fmt::format(
+          "{} '{}': a name has only letters, digits and _, and does not begin "
+          "with a digit, so that formulas can use it",
+          kind, echo(name)));
     }
     std::string lower = name;
     std::transform(lower.begin(), lower.end(), lower.begin(),
@@ -267,8 +266,9 @@ void check_paths(const Study& study, TomlTable& root) {
   for (const Factor& factor : study.factors) {
     for (const std::string& path : factor.paths) {
       if (taken.insert(path).second) continue;
-      root.fail(fmt::format("factor '{}': another has the path '{}', too",
-                            echo(factor.name), echo(path)));
+      root.fail(
+          fmt::format("factor '{}': another factor also has the path '{}'",
+                      echo(factor.name), echo(path)));
     }
   }
 }

@@ -137,8 +137,8 @@ class Runner {
     cost_.seconds = seconds_since(start);
     if (cost_.runs < left_.size()) {
       throw dynamics::Interrupted(
-          fmt::format("interrupted after {} of {} runs; the same command goes "
-                      "on with the others",
+          fmt::format("interrupted after {} of {} runs; the same command "
+                      "continues with the others",
                       before_ + cost_.runs, before_ + left_.size()));
     }
     return cost_;

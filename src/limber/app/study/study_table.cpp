@@ -86,9 +86,10 @@ std::string describe_correlations(const Study& study,
           study.factors[f].name, study.responses[r].name, found->linear,
           describe(found->linear_interval), found->rank,
           describe(found->rank_interval),
-          found->is_told() ? ""
-                           : fmt::format(": cannot tell from 0 with {} samples",
-                                         found->samples));
+          found->is_significant()
+              ? ""
+              : fmt::format(": not distinguishable from 0 with {} samples",
+                            found->samples));
     }
   }
   return text;
@@ -116,7 +117,7 @@ Json to_json(const Correlation& correlation) {
               {"linear_interval", to_list(correlation.linear_interval)},
               {"rank", correlation.rank},
               {"rank_interval", to_list(correlation.rank_interval)},
-              {"differs_from_zero", correlation.is_told()},
+              {"differs_from_zero", correlation.is_significant()},
               {"samples", correlation.samples}};
 }
 

@@ -26,7 +26,7 @@ struct ResponseRange {
 [[nodiscard]] ResponseRange find_range(const std::vector<StudyRow>& rows,
                                        std::size_t response);
 
-/// What the finished runs of a study tell.
+/// Statistics of the finished runs of a study.
 struct StudyFindings {
   Effects effects;
   Correlations correlations;

@@ -22,7 +22,7 @@ struct PivotedQ {
 };
 [[nodiscard]] PivotedQ find_pivoted_q(const MatrixX& A, double threshold);
 
-/// x of least |A x - b|, each column of b by itself.
+/// x that minimises |A x - b|, separately for each column of b.
 struct LeastSquares {
   MatrixX x;              ///< c x b's columns
   Eigen::Index rank = 0;  ///< pivots above `threshold` times the largest

@@ -27,12 +27,12 @@ class FlatReader {
  public:
   FlatReader(const std::filesystem::path& file, std::size_t start)
       : file_(file), bytes_(read_input(file, kFlatFile)), at_(start) {
-    if (start > bytes_.size()) fail("is cut short");
+    if (start > bytes_.size()) fail("is truncated");
   }
 
   [[nodiscard]] bool is_at_end() const { return at_ == bytes_.size(); }
   std::string take(std::uint64_t size) {
-    if (size > bytes_.size() - at_) fail("is cut short");
+    if (size > bytes_.size() - at_) fail("is truncated");
     std::string part = bytes_.substr(at_, static_cast<std::size_t>(size));
     at_ += part.size();
     return part;
@@ -104,7 +104,7 @@ FlatFile read_flat(const std::filesystem::path& file, std::size_t user_block) {
   FlatReader reader(file, user_block);
   FlatFile content{reader.front(), {}};
   if (reader.take(kFlatMagic.size()) != kFlatMagic) {
-    reader.fail("is no flat file");
+    reader.fail("is not a flat file");
   }
   while (!reader.is_at_end()) {
     const std::string name = reader.take(reader.take_number());

@@ -298,8 +298,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file,
       with_path(file, [&] { return create_file(file, user_block); });
   if (id < 0) {
     throw InputError(fmt::format(
-        "'{}' cannot be written; does its folder exist, and may you write "
-        "there?",
+        "'{}' cannot be written; does its folder exist, and is it writable?",
         file.string()));
   }
   return {id, file};

@@ -52,8 +52,8 @@ void check_inside(hid_t file) {
   checked(H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, look, &problem));
   if (problem.empty()) return;
   throw Failure(problem +
-                "; only files that hold all their values are read, since "
-                "others could show anybody's");
+                "; only self-contained files are read, since references could "
+                "expose other files");
 }
 
 }  // namespace limber::hdf5

@@ -30,7 +30,7 @@ void check_counts(const StatedMaterial& stated, Problems& problems) {
         !stated.shear_modulus.empty())
       problems.push_back(
           "the stiffness replaces Young's and shear moduli and Poisson's "
-          "ratios; keep one of both");
+          "ratios; give only one of the two");
     return;
   }
   if (!stated.shear_modulus.empty()) {

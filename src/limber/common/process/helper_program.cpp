@@ -32,7 +32,7 @@ std::filesystem::path find_helper(const std::string& what,
     if (can_run(place)) return std::filesystem::canonical(place);
   }
   throw InputError(fmt::format(
-      "{} '{}' is not there: looked for {}, {} and {}. {}", what, name,
+      "{} '{}' was not found; looked for {}, {} and {}. {}", what, name,
       places[0].string(), places[1].string(), places[2].string(), remedy));
 }
 

@@ -104,8 +104,7 @@ class Archive {
 
  private:
   [[noreturn]] static void fail() {
-    throw InputError(
-        "the record is damaged: it is not what it says that it holds");
+    throw InputError("the record is truncated or corrupt");
   }
 
   std::vector<double> numbers_;

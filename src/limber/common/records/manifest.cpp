@@ -147,8 +147,8 @@ std::vector<std::string> find_differences(const Manifest& before,
   const Lines new_lines = read_lines(now.text());
   std::vector<std::string> texts;
   std::set<std::string> reported;
-  const auto tell_missing = [&](const Values& values, const std::string& path,
-                                const char* what) {
+  const auto report_missing = [&](const Values& values, const std::string& path,
+                                  const char* what) {
     const std::string place = find_missing(values, path);
     if (!reported.insert(place).second) return;
     texts.push_back(split_unit(place).first + what);
@@ -157,17 +157,17 @@ std::vector<std::string> find_differences(const Manifest& before,
     const auto old = old_lines.values.find(path);
     const std::string& value = new_lines.values.at(path);
     if (old == old_lines.values.end()) {
-      tell_missing(old_lines.values, path, " is new");
+      report_missing(old_lines.values, path, " is new");
     } else if (old->second != value) {
       texts.push_back(describe_change(path, old->second, value));
     }
   }
   for (const std::string& path : old_lines.paths) {
     if (!new_lines.values.contains(path)) {
-      tell_missing(new_lines.values, path, " is gone");
+      report_missing(new_lines.values, path, " is gone");
     }
   }
-  if (texts.empty()) texts.emplace_back("another order of the same things");
+  if (texts.empty()) texts.emplace_back("the same entries in another order");
   return texts;
 }
 

@@ -65,7 +65,7 @@ class Wire {
  private:
   [[nodiscard]] std::size_t left() const { return bytes_.size() - next_; }
   [[noreturn]] static void fail() {
-    throw InputError("the message is damaged: its lengths do not fit");
+    throw InputError("the message is damaged: its lengths are inconsistent");
   }
 
   std::string bytes_;

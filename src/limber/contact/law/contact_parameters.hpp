@@ -8,7 +8,7 @@
 
 namespace limber::contact {
 
-/// What a user can set for a contact.
+/// Parameters of a contact that a user can set.
 struct ContactParameters {
   FrictionLimit friction = {};  ///< none
   /// Arm b >= 0 of the normal force that resists rolling at most [m].

@@ -5,7 +5,7 @@
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/pair_mobility.hpp"
 
-/// The mass that two bodies oppose to the normal forces of their touch.
+/// The effective mass of two bodies against their normal contact forces.
 namespace limber::contact {
 
 /// Sum of the normal forces on one side.
@@ -19,12 +19,12 @@ struct NormalLoad {
            const Vector3& added_W);
 };
 
-/// A rigid body that nothing else holds.
+/// A free rigid body.
 class FreeBody {
  public:
   /// @param mass > 0; infinity of the world [kg]
   /// @param inertia_B about Bo, the centre of mass; zero of a body that its
-  /// contacts do not turn [kg m^2]
+  /// contacts do not rotate [kg m^2]
   FreeBody(double mass, const Matrix3& inertia_B);
 
   /// g . M^-1 g of a force and a moment about Bo [N^2/kg]
@@ -47,7 +47,7 @@ class FreeBody {
                                        const joints::PairBodies& bodies,
                                        const NormalLoad& load, double F);
 
-/// The same of bodies in joints.
+/// The same for bodies in joints.
 ///
 /// Equation   1/m = g . Y g / F^2
 [[nodiscard]] double find_inverse_mass(const joints::PairMobility& Y,

@@ -6,21 +6,25 @@
 namespace limber::contact {
 namespace {
 
-Matrix3 to_matrix(const Eigen::Vector4d& turn) {
-  return Quaternion(turn).toRotationMatrix();
+Matrix3 to_matrix(const Eigen::Vector4d& rotation) {
+  return Quaternion(rotation).toRotationMatrix();
 }
 
-bool is_new(const FrictionMemory& memory) { return memory.turn_B.isZero(0.0); }
-
-// The mean of both bodies' turns since then.
-Matrix3 find_mean_turn(const FrictionMemory& memory, const BodyTurns& turns) {
-  return 0.5 * (turns.R_WA * to_matrix(memory.turn_A).transpose() +
-                turns.R_WB * to_matrix(memory.turn_B).transpose());
+bool is_new(const FrictionMemory& memory) {
+  return memory.rotation_B.isZero(0.0);
 }
 
-Eigen::Vector2d carry(const Vector3& vector_W, const Matrix3& turn,
+// The mean of both bodies' rotations since then.
+Matrix3 find_mean_rotation(const FrictionMemory& memory,
+                           const BodyRotations& rotations) {
+  return 0.5 * (rotations.R_WA * to_matrix(memory.rotation_A).transpose() +
+                rotations.R_WB * to_matrix(memory.rotation_B).transpose());
+}
+
+Eigen::Vector2d carry(const Vector3& vector_W, const Matrix3& rotation,
                       const FrictionFrame& frame) {
-  const Eigen::Vector2d inside = frame.plane_W.transpose() * (turn * vector_W);
+  const Eigen::Vector2d inside =
+      frame.plane_W.transpose() * (rotation * vector_W);
   const double length = inside.norm();
   return length > 0.0 ? Eigen::Vector2d(vector_W.norm() / length * inside)
                       : inside;
@@ -34,7 +38,8 @@ FrictionFrame::FrictionFrame(const Vector3& normal) : normal_W(normal) {
 }
 
 FrictionMemory keep_friction(const ShellMemory& shells,
-                             const FrictionFrame& frame, const BodyTurns& turns,
+                             const FrictionFrame& frame,
+                             const BodyRotations& rotations,
                              const RollingSpring& rolling) {
   FrictionMemory memory;
   memory.lowest = shells.lowest;
@@ -46,44 +51,47 @@ FrictionMemory keep_friction(const ShellMemory& shells,
   }
   memory.rolling_stiffness = rolling.stiffness;
   memory.rolling_W = frame.plane_W * rolling.moment;
-  memory.turn_A = Quaternion(turns.R_WA).coeffs();
-  memory.turn_B = Quaternion(turns.R_WB).coeffs();
+  memory.rotation_A = Quaternion(rotations.R_WA).coeffs();
+  memory.rotation_B = Quaternion(rotations.R_WB).coeffs();
   return memory;
 }
 
 ShellMemory recall_friction(const FrictionMemory& memory,
                             const FrictionFrame& frame,
-                            const BodyTurns& turns) {
+                            const BodyRotations& rotations) {
   ShellMemory shells{.lowest = memory.lowest};
   if (is_new(memory)) return shells;
-  const Matrix3 turn = find_mean_turn(memory, turns);
+  const Matrix3 rotation = find_mean_rotation(memory, rotations);
   for (std::size_t i = 0; i < kShells; ++i) {
     const FrictionMemory::Spring& spring = memory.springs[i];
     shells.shells[i].stiffness = spring.stiffness;
-    shells.shells[i].spring << carry(spring.force_W, turn, frame), spring.spin;
+    shells.shells[i].spring << carry(spring.force_W, rotation, frame),
+        spring.spin;
   }
   return shells;
 }
 
 RollingSpring recall_rolling(const FrictionMemory& memory,
                              const FrictionFrame& frame,
-                             const BodyTurns& turns) {
+                             const BodyRotations& rotations) {
   if (is_new(memory)) return {};
-  return {memory.rolling_stiffness,
-          carry(memory.rolling_W, find_mean_turn(memory, turns), frame)};
+  return {
+      memory.rolling_stiffness,
+      carry(memory.rolling_W, find_mean_rotation(memory, rotations), frame)};
 }
 
-Vector3 find_turn_W(const FrictionMemory& memory, const BodyTurns& turns) {
+Vector3 find_rotation_W(const FrictionMemory& memory,
+                        const BodyRotations& rotations) {
   if (is_new(memory)) return Vector3::Zero();
   const Matrix3 before =
-      to_matrix(memory.turn_A).transpose() * to_matrix(memory.turn_B);
-  const Quaternion turn(
-      Matrix3(turns.R_WA.transpose() * turns.R_WB * before.transpose()));
-  const double sine = turn.vec().norm();
+      to_matrix(memory.rotation_A).transpose() * to_matrix(memory.rotation_B);
+  const Quaternion rotation(Matrix3(rotations.R_WA.transpose() *
+                                    rotations.R_WB * before.transpose()));
+  const double sine = rotation.vec().norm();
   if (sine == 0.0) return Vector3::Zero();
-  const double angle = 2.0 * std::atan2(sine, std::abs(turn.w()));
-  const double share = std::copysign(angle / sine, turn.w());
-  return share * (turns.R_WA * turn.vec());
+  const double angle = 2.0 * std::atan2(sine, std::abs(rotation.w()));
+  const double fraction = std::copysign(angle / sine, rotation.w());
+  return fraction * (rotations.R_WA * rotation.vec());
 }
 
 }  // namespace limber::contact

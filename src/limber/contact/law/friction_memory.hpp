@@ -12,7 +12,7 @@
 namespace limber::contact {
 
 /// Rotations of both bodies.
-struct BodyTurns {
+struct BodyRotations {
   Matrix3 R_WA = Matrix3::Identity();
   Matrix3 R_WB = Matrix3::Identity();
 };
@@ -37,32 +37,33 @@ struct FrictionMemory {
   std::array<Spring, kShells> springs = {};
   double rolling_stiffness = 0.0;       ///< [N m]
   Vector3 rolling_W = Vector3::Zero();  ///< in the tangent plane [N m]
-  Eigen::Vector4d turn_A = Eigen::Vector4d::Zero();  ///< quaternion x y z w
-  Eigen::Vector4d turn_B = Eigen::Vector4d::Zero();  ///< all 0 before the first
+  Eigen::Vector4d rotation_A = Eigen::Vector4d::Zero();  ///< quaternion x y z w
+  Eigen::Vector4d rotation_B =
+      Eigen::Vector4d::Zero();  ///< all 0 before the first
 };
 
 inline constexpr std::size_t kFrictionNumbers = 13 + 5 * kShells;
 
 [[nodiscard]] FrictionMemory keep_friction(const ShellMemory& shells,
                                            const FrictionFrame& frame,
-                                           const BodyTurns& turns,
+                                           const BodyRotations& rotations,
                                            const RollingSpring& rolling = {});
 
-/// The springs at present rotations: turned by the mean of both bodies' turns
-/// since then, whatever the bodies' order, into the present tangent plane,
-/// where they keep their length.
+/// The springs at present rotations: rotated by the mean of both bodies'
+/// rotations since then, whatever the bodies' order, into the present tangent
+/// plane, where they keep their length.
 [[nodiscard]] ShellMemory recall_friction(const FrictionMemory& memory,
                                           const FrictionFrame& frame,
-                                          const BodyTurns& turns);
+                                          const BodyRotations& rotations);
 
 /// Likewise.
 [[nodiscard]] RollingSpring recall_rolling(const FrictionMemory& memory,
                                            const FrictionFrame& frame,
-                                           const BodyTurns& turns);
+                                           const BodyRotations& rotations);
 
-/// Rotation of B against A since then, less than half a turn [rad].
-[[nodiscard]] Vector3 find_turn_W(const FrictionMemory& memory,
-                                  const BodyTurns& turns);
+/// Rotation of B relative to A since then, less than half a turn [rad].
+[[nodiscard]] Vector3 find_rotation_W(const FrictionMemory& memory,
+                                      const BodyRotations& rotations);
 
 /// Calls `visit` with every number, in one order.
 template <typename Memory, typename Visit>
@@ -75,8 +76,8 @@ void visit_friction(Memory& memory, const Visit& visit) {
   }
   visit(memory.rolling_stiffness);
   for (int i = 0; i < 3; ++i) visit(memory.rolling_W[i]);
-  for (int i = 0; i < 4; ++i) visit(memory.turn_A[i]);
-  for (int i = 0; i < 4; ++i) visit(memory.turn_B[i]);
+  for (int i = 0; i < 4; ++i) visit(memory.rotation_A[i]);
+  for (int i = 0; i < 4; ++i) visit(memory.rotation_B[i]);
 }
 
 }  // namespace limber::contact

@@ -17,11 +17,11 @@ double integrate(const HertzLaw& law, double peak_energy) {
   double sum = 0.0;
   for (int i = -kHalfCount; i <= kHalfCount; ++i) {
     const double t = kStep * i;
-    const double share =
+    const double fraction =
         1.0 / (1.0 + std::exp(-std::numbers::pi * std::sinh(t)));
     const double rest = 1.0 / (1.0 + std::exp(std::numbers::pi * std::sinh(t)));
-    const double weight = std::numbers::pi * std::cosh(t) * share * rest;
-    const double sine = std::sin(0.5 * std::numbers::pi * share);
+    const double weight = std::numbers::pi * std::cosh(t) * fraction * rest;
+    const double sine = std::sin(0.5 * std::numbers::pi * fraction);
     const double force =
         law.find_state_of_energy(peak_energy * sine * sine).force;
     sum += weight * sine / force;

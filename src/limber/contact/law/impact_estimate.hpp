@@ -24,7 +24,8 @@ struct ImpactEstimate {
 ///            Between, with T_H and T_R of these two:
 ///            sqrt(T_H^2 + T_R^2) <= T_c <= T_H + T_R.
 /// Source     R = 0: [@johnson1985, ch. 11]
-/// Limits     bodies that vibrate may part sooner, and touch again. Damping
+/// Limits     bodies that vibrate may separate sooner and come into contact
+/// again. Damping
 ///            makes the impact longer (twice at restitution 0.1, 7.2 times at
 ///            0.01) and less deep, and the rising force higher (1.4 times at
 ///            0.1, 3.3 at 0.01; more where R dominates)

@@ -120,7 +120,7 @@ double LoadShells::find_energy(const ShellMemory& memory) const {
   return energy;
 }
 
-// The work of the spring but for its energy is T . (u* - T / k).
+// The work of the spring except for its energy is T . (u* - T / k).
 void LoadShells::add_shell(const LoadShell& before, const Share& share,
                            const ShellMotion& motion, double limit_by_load,
                            ShellResponse& out, LoadShell& next) const {

@@ -12,7 +12,7 @@ namespace limber::contact {
 /// Most shells of a contact.
 inline constexpr std::size_t kShells = 5;
 
-/// The part of a contact's area that came with one range of its stiffness.
+/// The part of a contact's area that belongs to one range of its stiffness.
 struct LoadShell {
   double stiffness = 0.0;  ///< tangential, 0 of one that does not touch [N/m]
   /// Of its spring in two tangential directions, and about the normal, there
@@ -58,7 +58,7 @@ struct ShellResponse {
 };
 
 /// Friction of a contact whose area grows with its load: springs in shells,
-/// each of which slips at the friction of its own share of the load.
+/// each of which slips at the friction of its own fraction of the load.
 ///
 /// Equation   levels k_j = k_0 q^j, q = 1.5, up to the highest below k; four
 ///            below that are kept, and what is lower belongs to the lowest. A
@@ -117,7 +117,7 @@ class LoadShells {
   Parameters parameters_;
 };
 
-/// c_t as a share [-] of the critical damping of `mass` on k_t [N s/m].
+/// c_t as a fraction [-] of the critical damping of `mass` on k_t [N s/m].
 [[nodiscard]] double find_spring_damping(double stiffness, double mass,
                                          double share = 0.1);
 

@@ -49,7 +49,7 @@ inline constexpr double kDefaultTangentialRatio = 2.0 * 0.7 / 1.7;
 /// @throws InputError for values outside their range.
 [[nodiscard]] double find_hertz_stiffness(double modulus, double radius);
 
-/// Radius a = sqrt(R_e d_H) of the area that touches [m].
+/// Radius a = sqrt(R_e d_H) of the contact area [m].
 /// @param hertz_depth indentation d_H of the two surfaces >= 0 [m]
 /// @throws ContractError for values outside their range.
 [[nodiscard]] double find_contact_radius(double radius, double hertz_depth);

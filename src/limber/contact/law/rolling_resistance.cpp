@@ -10,7 +10,7 @@ namespace limber::contact {
 
 using Vector2 = Eigen::Vector2d;
 
-// Of the critical damping of bodies that turn about their centres.
+// Of the critical damping of bodies that rotate about their centres.
 constexpr double kDamping = 0.3;
 
 RollingResponse resist_rolling(double arm, const RollingSpring& before,
@@ -25,7 +25,7 @@ RollingResponse resist_rolling(double arm, const RollingSpring& before,
   }
   Vector2 released = before.moment;
   if (k < before.stiffness) released *= k / before.stiffness;
-  const Vector2 trial = released + k * motion.turn;
+  const Vector2 trial = released + k * motion.rotation;
   const Within<2> spring(trial, most);
   out.next = {k, spring.value};
   out.energy = find_energy(out.next);
@@ -38,7 +38,7 @@ RollingResponse resist_rolling(double arm, const RollingSpring& before,
   const Within<2> sum(-spring.value - c * motion.rate, most);
   out.moment = sum.value;
   out.damper_power = (-spring.value - sum.value).dot(motion.rate);
-  out.by_turn = -k * sum.by_value * spring.by_value;
+  out.by_rotation = -k * sum.by_value * spring.by_value;
   out.by_rate = -c * sum.by_value;
   out.by_force = arm * (sum.by_most - sum.by_value * spring.by_most);
   return out;

@@ -12,16 +12,17 @@ struct RollingSpring {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< [N m]
 };
 
-/// Under what a contact rolls.
+/// Conditions under which a contact rolls.
 struct RollingLoad {
   double force = 0.0;            ///< normal, damping included, >= 0 [N]
   double stiffness = 0.0;        ///< k of the elastic normal force > 0 [N/m]
   double inverse_inertia = 0.0;  ///< of both bodies >= 0 [1/(kg m^2)]
 };
 
-/// Of B against A, about the same axes.
+/// Of B relative to A, about the same axes.
 struct RollingMotion {
-  Eigen::Vector2d turn = Eigen::Vector2d::Zero();  ///< since the last commit
+  Eigen::Vector2d rotation =
+      Eigen::Vector2d::Zero();                     ///< since the last commit
   Eigen::Vector2d rate = Eigen::Vector2d::Zero();  ///< [rad/s]
 };
 
@@ -31,17 +32,17 @@ struct RollingResponse {
   double energy = 0.0;                               ///< of the spring [J]
   double slip_work = 0.0;     ///< lost by rolling on and release, >= 0 [J]
   double damper_power = 0.0;  ///< >= 0 [W]
-  Eigen::Matrix2d by_turn = Eigen::Matrix2d::Zero();   ///< [N m]
-  Eigen::Matrix2d by_rate = Eigen::Matrix2d::Zero();   ///< [N m s]
-  Eigen::Vector2d by_force = Eigen::Vector2d::Zero();  ///< [m]
-  RollingSpring next;                                  ///< what to commit
+  Eigen::Matrix2d by_rotation = Eigen::Matrix2d::Zero();  ///< [N m]
+  Eigen::Matrix2d by_rate = Eigen::Matrix2d::Zero();      ///< [N m s]
+  Eigen::Vector2d by_force = Eigen::Vector2d::Zero();     ///< [m]
+  RollingSpring next;                                     ///< what to commit
 };
 
 /// A moment against rolling, of which the normal force times an arm is the
 /// largest: a spring that rolls on beyond it, and a damper of 0.3 of
 /// the critical damping, together within it.
 ///
-/// Equation   T* = T_0 min(1, k_r / k_r0) + k_r turn, T = T* min(1, b f /
+/// Equation   T* = T_0 min(1, k_r / k_r0) + k_r rotation, T = T* min(1, b f /
 ///            |T*|), moment = -T - c rate within b f; k_r = 3 k b^2, that of a
 ///            strip of springs 6 b wide, which b f tilts until one edge is free
 /// Source     [@iwashita1998; @jiang2005]; damping [@ai2011]; return mapping

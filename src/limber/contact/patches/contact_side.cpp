@@ -11,7 +11,7 @@
 namespace limber::contact {
 namespace {
 
-// Of which normal forces turn the body.
+// Of which normal forces rotate the body.
 bool is_turned(const Shape& shape) {
   const bool is_ball = std::holds_alternative<Sphere>(shape.kind);
   return !is_ball || !shape.X_BS.p.isZero(0.0);

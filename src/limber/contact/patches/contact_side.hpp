@@ -21,7 +21,7 @@ struct ContactSide {
   std::optional<SurfaceMaterial> material;  ///< none: rigid
   double mass = 0.0;  ///< of the body; infinity of the world [kg]
   /// Of the body, about Bo, its centre of mass; zero of the world, and of
-  /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
+  /// bodies that no contact rotates, such as a sphere at Bo [kg m^2].
   Matrix3 inertia_B = Matrix3::Zero();
   /// Convex parts of a rigid mesh or of a flexible surface with slices, in its
   /// frame; none of others.
@@ -30,7 +30,7 @@ struct ContactSide {
   std::vector<std::size_t> slices = {};
 };
 
-/// Both sides and the law between them: all that forces depend on.
+/// Both sides and the law between them: everything that forces depend on.
 void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
               const ContactParameters& parameters);
 
@@ -38,15 +38,16 @@ void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
 /// @throws InputError if neither has a finite mass.
 [[nodiscard]] double check_masses(const ContactSide& A, const ContactSide& B);
 
-/// The mass that both bodies oppose to normal forces: as free ones, unless a
-/// mobility of joints is kept in their pair's memory, whose last kNumbers are
-/// those of a joints::PairMobility by columns, zero without joints.
+/// The effective mass of both bodies against normal forces: as free bodies,
+/// unless a mobility of joints is kept in their pair's memory, whose last
+/// kNumbers are those of a joints::PairMobility by columns, zero without
+/// joints.
 class OpposedMass {
  public:
   static constexpr std::size_t kNumbers = 144;
 
   /// @throws InputError for a restitution or rolling friction of a body that
-  /// may turn without inertia.
+  /// may rotate without inertia.
   OpposedMass(const ContactSide& A, const ContactSide& B,
               const ContactParameters& parameters);
 

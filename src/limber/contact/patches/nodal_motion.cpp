@@ -30,9 +30,9 @@ NodalMotion::Fit NodalMotion::fit(const Pose& X, const double* u) const {
     const Eigen::Map<const Vector3> moved(
         u + 3 * piece_.nodes[static_cast<std::size_t>(i)]);
     const Vector3 e = X.R.transpose() * (from + moved - X.p) - from;
-    const auto share = piece_.motion.middleCols<3>(3 * i);
-    fit.motion += share * e;
-    fit.by_motion.rightCols<3>() -= share * skew(e);
+    const auto fraction = piece_.motion.middleCols<3>(3 * i);
+    fit.motion += fraction * e;
+    fit.by_motion.rightCols<3>() -= fraction * skew(e);
   }
   return fit;
 }

@@ -8,7 +8,8 @@
 
 namespace limber::contact {
 
-/// Where two bodies touch: the patches of a pair, and what moves with each.
+/// Where two bodies are in contact: the patches of a pair, and the parts that
+/// carry them.
 class PatchFinder {
  public:
   PatchFinder() = default;

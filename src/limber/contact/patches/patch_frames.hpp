@@ -7,14 +7,14 @@
 
 #include "limber/common/stack_array.hpp"
 #include "limber/contact/patches/patch_part.hpp"
-#include "limber/contact/patches/skin_parts.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 
-/// Where the parts of both sides of a pair are, and which may touch.
+/// Poses of the parts of both sides of a pair, and which may be in contact.
 namespace limber::contact {
 
 /// The frames of all parts of one side: of a rigid mesh all the same, of a
-/// flexible surface one each, up to kMostSkinParts.
+/// flexible surface one each, up to kMostSurfaceParts.
 class SideFrames {
  public:
   SideFrames(const std::vector<PatchPart>& parts, const joints::PairBody& body);
@@ -37,7 +37,7 @@ class SideFrames {
  private:
   const std::vector<PatchPart>& parts_;
   bool is_shared_;
-  StackArray<joints::PairBody, kMostSkinParts> frames_;
+  StackArray<joints::PairBody, kMostSurfaceParts> frames_;
 };
 
 /// The frames of all parts of both sides.

@@ -15,8 +15,8 @@ namespace {
 Matrix6 find_pressure_matrix(const Patch& patch) {
   const double N = patch.load();
   const Vector3 n = patch.normal_W();
-  const Matrix3 turn = skew(n);
-  const Matrix3 rocking = N * turn * patch.spread_W * turn.transpose();
+  const Matrix3 rotation = skew(n);
+  const Matrix3 rocking = N * rotation * patch.spread_W * rotation.transpose();
   const Matrix3 moving = patch.turns_A_W * patch.turns_B_W;
   Matrix6 D = Matrix6::Zero();
   D.topLeftCorner<3, 3>() = N * n * n.transpose();
@@ -129,14 +129,15 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Vector6 s_by_twist = slope * 2.0 / N * d;
   const double normal = -s * n.dot(d.head<3>());
   // Nothing pulls.
-  const double share =
+  const double fraction =
       out.normal_force + normal < 0.0 ? -out.normal_force / normal : 1.0;
-  out.wrench.wrench_W -= share * s * d;
+  out.wrench.wrench_W -= fraction * s * d;
   out.wrench.stiffness_W +=
-      share * d * (s / patch.load() * load_by_motion + s_by_motion).transpose();
-  out.wrench.damping_W += share * (s * D + d * s_by_twist.transpose());
+      fraction * d *
+      (s / patch.load() * load_by_motion + s_by_motion).transpose();
+  out.wrench.damping_W += fraction * (s * D + d * s_by_twist.transpose());
   out.normal_force = std::max(out.normal_force + normal, 0.0);
-  out.damped = share * s * d.dot(in.twist_W);
+  out.damped = fraction * s * d.dot(in.twist_W);
 }
 
 double PatchLaw::find_radius(const Patch& patch,
@@ -145,8 +146,8 @@ double PatchLaw::find_radius(const Patch& patch,
                    : find_spin_radius(patch.spread_W, normal_W);
 }
 
-// In two directions, and the turn times r_e. Of a flat the elastic load counts
-// only by the normal force.
+// In two directions, and the rotation times r_e. Of a flat the elastic load
+// counts only by the normal force.
 void PatchLaw::add_sliding(const Input& in, const PatchWrench& pressed,
                            const FrictionFrame& frame, ShellMemory& next,
                            PatchResponse& out) const {
@@ -158,7 +159,7 @@ void PatchLaw::add_sliding(const Input& in, const PatchWrench& pressed,
   const PatchSlip& slip = in.slip;
   ShellMotion motion;
   motion.increment << frame.plane_W.transpose() * slip.way_W,
-      r_e * frame.normal_W.dot(find_turn_W(slip.last, slip.turns));
+      r_e * frame.normal_W.dot(find_rotation_W(slip.last, slip.rotations));
   motion.velocity = E.transpose() * in.twist_W;
   const ShellLoad load{.force = N,
                        .stiffness = find_stiffness(in),
@@ -169,7 +170,7 @@ void PatchLaw::add_sliding(const Input& in, const PatchWrench& pressed,
   const double damping =
       is_flat ? find_spring_damping(k_t, 1.0 / in.all.inverse_mass) : 0.0;
   const ShellResponse shells = shells_.evaluate(
-      recall_friction(slip.last, frame, slip.turns), load, motion, damping);
+      recall_friction(slip.last, frame, slip.rotations), load, motion, damping);
   Tangents<3> tangents{.by_way = shells.by_increment,
                        .by_rate = shells.by_velocity,
                        .by_force = shells.by_grip / N};
@@ -193,16 +194,17 @@ void PatchLaw::add_rolling(const Input& in, const PatchWrench& pressed,
   E.bottomRows<3>() = frame.plane_W;
   const PatchSlip& slip = in.slip;
   const RollingMotion motion{
-      .turn = frame.plane_W.transpose() * find_turn_W(slip.last, slip.turns),
+      .rotation = frame.plane_W.transpose() *
+                  find_rotation_W(slip.last, slip.rotations),
       .rate = E.transpose() * in.twist_W};
-  const RollingResponse rolling =
-      resist_rolling(rolling_arm_, recall_rolling(slip.last, frame, slip.turns),
-                     {.force = out.normal_force,
-                      .stiffness = find_stiffness(in),
-                      .inverse_inertia = in.all.inverse_inertia},
-                     motion);
+  const RollingResponse rolling = resist_rolling(
+      rolling_arm_, recall_rolling(slip.last, frame, slip.rotations),
+      {.force = out.normal_force,
+       .stiffness = find_stiffness(in),
+       .inverse_inertia = in.all.inverse_inertia},
+      motion);
   add_tangents<2>(in, E,
-                  {.by_way = rolling.by_turn,
+                  {.by_way = rolling.by_rotation,
                    .by_rate = rolling.by_rate,
                    .by_force = rolling.by_force},
                   pressed, frame.normal_W, out.wrench);
@@ -221,7 +223,7 @@ void PatchLaw::add_friction(const Input& in, PatchResponse& out) const {
   RollingSpring rolling;
   if (slides_) add_sliding(in, pressed, frame, shells, out);
   if (rolls()) add_rolling(in, pressed, frame, rolling, out);
-  out.next = keep_friction(shells, frame, in.slip.turns, rolling);
+  out.next = keep_friction(shells, frame, in.slip.rotations, rolling);
 }
 
 double PatchLaw::find_energy(const FrictionMemory& memory) const {

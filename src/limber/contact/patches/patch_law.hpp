@@ -12,10 +12,10 @@
 
 namespace limber::contact {
 
-/// What friction has been, and the motion since then.
+/// Friction at the last commit, and the motion since then.
 struct PatchSlip {
   FrictionMemory last;
-  BodyTurns turns;
+  BodyRotations rotations;
   Vector3 way_W = Vector3::Zero();  ///< of B against A since [m]
 };
 
@@ -29,7 +29,7 @@ struct PatchMotion {
   double inverse_inertia = 0.0;
 };
 
-/// What acts on B, about the centre of pressure.
+/// The wrench on B, about the centre of pressure.
 struct PatchResponse {
   PatchWrench wrench;
   Vector3 normal_W = Vector3::Zero();    ///< from A to B [-]
@@ -49,7 +49,7 @@ struct PatchResponse {
 ///
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
-///            sum W / m) over all patches of the pair, or the damping asked
+///            sum W / m) over all patches of the pair, or the requested damping
 ///            for, the normal force >= 0; friction of LoadShells with the load
 ///            N ~ d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e
 ///            = 0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the

@@ -9,7 +9,7 @@
 
 namespace limber::contact {
 
-/// What a patch remembers of friction since the last accepted step.
+/// Memory of a patch's friction since the last accepted step.
 struct PatchMemory {
   bool is_touching = false;
   double time = 0.0;  ///< of the last step's end [s]

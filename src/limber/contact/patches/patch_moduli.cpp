@@ -106,8 +106,8 @@ PairModuli find_patch_moduli(const ContactSide& A, const ContactSide& B,
   const bool has_ball = is_ball(A) || is_ball(B);
   if (parameters.radius && !parameters.stiffness && !has_ball) {
     throw InputError(fmt::format(
-        "contact: 'radius' has no meaning for a {} and a {}, whose own shapes "
-        "press; leave it out, or add 'stiffness'",
+        "contact: 'radius' does not apply to a {} and a {}, whose curvature "
+        "follows from their shapes; leave it out, or add 'stiffness'",
         name_kind(A.shape), name_kind(B.shape)));
   }
   const auto of_materials = find_pair_moduli(A.material, B.material);

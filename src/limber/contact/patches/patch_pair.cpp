@@ -251,10 +251,10 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
                         (first != nullptr ? first->elastic_energy : 0.0);
     const PatchMemory before = load_patch(find_slot(memory, touch.index));
     const PairBodies parts{last ? last->A : touch.A, last ? last->B : touch.B};
-    const double share = i < of_middle ? 1.0 : 0.5;
+    const double fraction = i < of_middle ? 1.0 : 0.5;
     PatchResponse response =
         law_.evaluate({.patch = touch.patch,
-                       .elastic_W = correct(-share * touch.patch.gradient_W,
+                       .elastic_W = correct(-fraction * touch.patch.gradient_W,
                                             motions[i], rise),
                        .twist_W = motions[i] / step.times.h,
                        .all = all,

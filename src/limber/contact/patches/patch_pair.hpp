@@ -23,7 +23,7 @@ namespace limber::contact {
 /// Source     docs/theory/contact_laws.md
 /// Limits     two separate places of contact of one part, such as a plate with
 ///            feet, are one patch; parts of a surface are springs side by side:
-///            n of them, pressed alike, are sqrt(n) times as stiff as one
+///            n of them under equal pressure are sqrt(n) times as stiff as one
 class PatchPair final : public joints::PairInteraction,
                         public joints::Touching {
  public:

@@ -69,9 +69,9 @@ PatchPart::PatchPart(const flexbody::ContactSlice& slice,
 void PatchPart::check(int modes) const {
   if (!is_flexible() || motion_B_.cols() == modes) return;
   if (nodes_ != nullptr && nodes_->least_coordinates() <= modes) return;
-  throw InputError(
-      fmt::format("contact: a surface of {} modes is on a body of {}",
-                  motion_B_.cols(), modes));
+  throw InputError(fmt::format(
+      "contact: a surface has {} modes and its body {}; expected as many",
+      motion_B_.cols(), modes));
 }
 
 Vector6 PatchPart::move(const double* eta) const {
@@ -91,12 +91,12 @@ PatchPart::Motion PatchPart::find_own_motion(
     return out;
   }
   const Vector6 motion = move(body.eta);
-  const Vector3 turn = motion.tail<3>();
-  out.X = {exp_rotation(turn), motion.head<3>()};
+  const Vector3 rotation = motion.tail<3>();
+  out.X = {exp_rotation(rotation), motion.head<3>()};
   if (body.etadot == nullptr) return out;
   const Vector6 rate = move(body.etadot);
   out.rate << out.X.R.transpose() * rate.head<3>(),
-      out.X.R.transpose() * (left_jacobian(turn) * rate.tail<3>());
+      out.X.R.transpose() * (left_jacobian(rotation) * rate.tail<3>());
   return out;
 }
 
@@ -116,9 +116,9 @@ void PatchPart::set_modal_rows(const joints::PairBody& body, const Vector3& arm,
                                Matrix3X& out) const {
   const Vector6 motion = move(body.eta);
   const Vector3 r = arm - centre_B_ - motion.head<3>();
-  const Matrix3 by_turn = -skew(r) * left_jacobian(motion.tail<3>());
+  const Matrix3 by_rotation = -skew(r) * left_jacobian(motion.tail<3>());
   out = motion_B_.topRows<3>();
-  out.noalias() += by_turn.lazyProduct(motion_B_.bottomRows<3>());
+  out.noalias() += by_rotation.lazyProduct(motion_B_.bottomRows<3>());
 }
 
 void PatchPart::set_place(const joints::PairBody& body, const Vector3& p_W,

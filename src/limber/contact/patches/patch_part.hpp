@@ -22,7 +22,7 @@ class PatchPart {
   explicit PatchPart(const PlacedBody& body);
   /// @param flexibility of the layer under its face, along the normal [m/N]
   PatchPart(const flexbody::ContactPart& part, double flexibility);
-  /// @param body that stands for the slice, in the flexible body's frame
+  /// @param body that represents the slice, in the flexible body's frame
   PatchPart(const flexbody::ContactSlice& slice, const PlacedBody& body);
 
   /// Moves it, of a flexible surface at level `full`, with the nodes of a mesh.

@@ -17,9 +17,9 @@ PatchPoints::PatchPoints(const Vector3& centre_W, const Vector3& normal_W,
   arms_W_ = {radius * u, radius * (-0.5 * u + half * v),
              radius * (-0.5 * u - half * v)};
   // J = 3/2 R^2 (1 + n n')
-  const double share = 2.0 / (3.0 * radius * radius);
+  const double fraction = 2.0 / (3.0 * radius * radius);
   const Matrix3 inverse =
-      share * (Matrix3::Identity() - 0.5 * normal_W * normal_W.transpose());
+      fraction * (Matrix3::Identity() - 0.5 * normal_W * normal_W.transpose());
   for (std::size_t i = 0; i < kCount; ++i) {
     motions_[i] << Matrix3::Identity() / 3.0, inverse * skew(arms_W_[i]);
   }

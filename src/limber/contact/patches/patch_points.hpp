@@ -10,7 +10,7 @@
 namespace limber::contact {
 
 /// A wrench on B and the opposite one on A about a point c of the world, and
-/// how they follow the motion of B against A about c.
+/// their derivatives by the motion of B relative to A about c.
 ///
 /// Equation   d wrench = -stiffness d motion - damping d twist
 struct PatchWrench {

@@ -8,11 +8,11 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/patches/ball_on_skin.hpp"
+#include "limber/contact/patches/ball_on_surface.hpp"
 #include "limber/contact/patches/part_patches.hpp"
 #include "limber/contact/patches/patch_moduli.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 namespace limber::contact {
 namespace {
@@ -20,9 +20,10 @@ namespace {
 // Of parts.
 constexpr std::size_t kMostPairs = 4096;
 
-const Skin* find_skin(const ContactSide& side) {
-  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&side.shape.kind);
-  return skin == nullptr ? nullptr : skin->get();
+const MeshSurface* find_mesh_surface(const ContactSide& side) {
+  const auto* mesh_surface =
+      std::get_if<std::shared_ptr<const MeshSurface>>(&side.shape.kind);
+  return mesh_surface == nullptr ? nullptr : mesh_surface->get();
 }
 
 double find_area(const flexbody::ContactPart& part) {
@@ -50,19 +51,19 @@ double find_flexibility(const flexbody::ContactPart& part,
 }
 
 bool has_parts(const ContactSide& side) {
-  const Skin* skin = find_skin(side);
-  return skin == nullptr || !side.bodies.empty() ||
-         !skin->surface().parts.empty();
+  const MeshSurface* mesh_surface = find_mesh_surface(side);
+  return mesh_surface == nullptr || !side.bodies.empty() ||
+         !mesh_surface->surface().parts.empty();
 }
 
 }  // namespace
 
-bool has_ball_on_skin(const ContactSide& A, const ContactSide& B) {
-  return BallOnSkin::suits(A, B) || BallOnSkin::suits(B, A);
+bool has_ball_on_surface(const ContactSide& A, const ContactSide& B) {
+  return BallOnSurface::suits(A, B) || BallOnSurface::suits(B, A);
 }
 
 bool suits(const ContactSide& A, const ContactSide& B) {
-  if (has_ball_on_skin(A, B)) return true;
+  if (has_ball_on_surface(A, B)) return true;
   if (!has_parts(A) || !has_parts(B)) return false;
   const std::vector<PatchPart> parts_A = make_parts(A);
   const std::vector<PatchPart> parts_B = make_parts(B);
@@ -76,7 +77,7 @@ bool suits(const ContactSide& A, const ContactSide& B) {
 
 std::vector<PatchPart> make_parts(const ContactSide& side) {
   std::vector<PatchPart> parts;
-  const Skin* skin = find_skin(side);
+  const MeshSurface* mesh_surface = find_mesh_surface(side);
   for (std::size_t i = 0; i < side.bodies.size(); ++i) {
     const PlacedBody& body = side.bodies[i];
     if (side.slices.empty()) {
@@ -84,18 +85,20 @@ std::vector<PatchPart> make_parts(const ContactSide& side) {
       continue;
     }
     const std::size_t slice = side.slices[i];
-    parts.emplace_back(skin->surface().slices[slice], body);
-    if (skin->has_pieces()) parts.back().move_with(skin->pieces()[slice]);
+    parts.emplace_back(mesh_surface->surface().slices[slice], body);
+    if (mesh_surface->has_pieces())
+      parts.back().move_with(mesh_surface->pieces()[slice]);
   }
   if (!parts.empty()) return parts;
-  if (skin == nullptr) {
+  if (mesh_surface == nullptr) {
     const PlacedBody body{make_body(side.shape.kind), side.shape.X_BS};
     return {PatchPart(body)};
   }
-  for (const flexbody::ContactPart& part : skin->surface().parts) {
+  for (const flexbody::ContactPart& part : mesh_surface->surface().parts) {
     const std::size_t i = parts.size();
     parts.emplace_back(part, find_flexibility(part, side.material));
-    if (skin->has_pieces()) parts.back().move_with(skin->pieces()[i]);
+    if (mesh_surface->has_pieces())
+      parts.back().move_with(mesh_surface->pieces()[i]);
   }
   return parts;
 }
@@ -104,7 +107,7 @@ std::unique_ptr<const PatchFinder> make_finder(
     const ContactSide& A, const ContactSide& B, double modulus,
     const ContactParameters& parameters) {
   LIMBER_EXPECT(suits(A, B));
-  if (!has_ball_on_skin(A, B)) {
+  if (!has_ball_on_surface(A, B)) {
     return std::make_unique<const PartPatches>(make_parts(A), make_parts(B),
                                                modulus);
   }
@@ -112,7 +115,7 @@ std::unique_ptr<const PatchFinder> make_finder(
   if (parameters.radius || parameters.stiffness) {
     radius = find_touch_radius(A, B);
   }
-  return std::make_unique<const BallOnSkin>(A, B, modulus, radius);
+  return std::make_unique<const BallOnSurface>(A, B, modulus, radius);
 }
 
 }  // namespace limber::contact

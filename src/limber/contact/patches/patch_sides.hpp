@@ -10,8 +10,9 @@
 
 namespace limber::contact {
 
-/// Whether they touch as BallOnSkin.
-[[nodiscard]] bool has_ball_on_skin(const ContactSide& A, const ContactSide& B);
+/// Whether they touch as BallOnSurface.
+[[nodiscard]] bool has_ball_on_surface(const ContactSide& A,
+                                       const ContactSide& B);
 
 /// Whether both have patches: convex parts with a PairPotential each, at most
 /// 4096 pairs of them; or a ball and a flexible surface.

@@ -20,7 +20,7 @@ Vector6 find_twist(const PairBodies& parts, const Vector3& about_W) {
 
 PatchSlip find_slip(const PairBodies& parts, const PatchMemory& memory) {
   PatchSlip slip{.last = memory.friction,
-                 .turns = {parts.A.R_WB, parts.B.R_WB}};
+                 .rotations = {parts.A.R_WB, parts.B.R_WB}};
   if (!memory.is_touching) return slip;
   const auto place = [](const PairBody& body, const Vector3& x) -> Vector3 {
     return body.p_WB + body.R_WB * x;

@@ -11,7 +11,8 @@ namespace limber::contact {
 [[nodiscard]] Vector6 find_twist(const joints::PairBodies& parts,
                                  const Vector3& about_W);
 
-/// What friction has done since the last commit: both places that were one.
+/// Friction's displacement since the last commit: two points that coincided
+/// then.
 /// @param parts as bodies without modes
 [[nodiscard]] PatchSlip find_slip(const joints::PairBodies& parts,
                                   const PatchMemory& memory);

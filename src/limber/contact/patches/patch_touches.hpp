@@ -32,8 +32,8 @@ class PatchTouches {
   void add(const PatchTouch& touch) {
     if (size() == kMostPatches) {
       throw NumericalError(
-          "contact: too many parts of two shapes touch at one time; simpler "
-          "collision shapes have fewer");
+          "contact: too many parts of two shapes are in contact at one time; "
+          "use simpler collision shapes");
     }
     all_.add() = touch;
   }

@@ -27,8 +27,8 @@ struct RoundFit {
   [[nodiscard]] double find_distance(const Vector3& x) const;
 };
 
-/// The ball of least squares |x - c|^2 - r^2. @returns nothing for points in a
-/// plane
+/// The sphere that minimises the squares of |x - c|^2 - r^2. @returns nothing
+/// for points in a plane
 [[nodiscard]] std::optional<RoundFit> fit_ball(std::span<const Vector3> points);
 
 /// The line with a radius of least squares of the distances, by Newton's method

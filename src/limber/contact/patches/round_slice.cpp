@@ -6,7 +6,7 @@
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/contact/patches/round_fit.hpp"
-#include "limber/contact/patches/skin_slice.hpp"
+#include "limber/contact/patches/surface_slice.hpp"
 
 namespace limber::contact {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kOpen = 0.05;   // of the area that is not around the axis
 
 /// A smooth piece of a slice's surface.
 struct Piece {
-  std::vector<SkinFacet> facets;
+  std::vector<SurfaceFacet> facets;
   double size = 0.0;                 ///< [m^2]
   Vector3 area = Vector3::Zero();    ///< with its direction [m^2]
   Vector3 centre = Vector3::Zero();  ///< [m]
@@ -28,7 +28,7 @@ struct Piece {
   /// Seen from outside.
   [[nodiscard]] bool is_hollow() const {
     double flux = 0.0;
-    for (const SkinFacet& f : facets) flux += f.area.dot(f.middle - centre);
+    for (const SurfaceFacet& f : facets) flux += f.area.dot(f.middle - centre);
     return flux < 0.0;
   }
   /// Whether it surrounds an axis.
@@ -37,13 +37,14 @@ struct Piece {
   }
 };
 
-std::vector<Piece> find_pieces(const SkinSlice& slice) {
+std::vector<Piece> find_pieces(const SurfaceSlice& slice) {
   std::map<int, Piece> pieces;
-  for (const SkinFacet& f : slice.facets) pieces[f.patch].facets.push_back(f);
+  for (const SurfaceFacet& f : slice.facets)
+    pieces[f.patch].facets.push_back(f);
   std::vector<Piece> all;
   for (auto& [patch, piece] : pieces) {
     Matrix3 moments = Matrix3::Zero();
-    for (const SkinFacet& f : piece.facets) {
+    for (const SurfaceFacet& f : piece.facets) {
       const double size = f.area.norm();
       piece.size += size;
       piece.area += f.area;
@@ -75,7 +76,7 @@ struct Ends {
 };
 
 // Nothing if a plane is not across the axis.
-std::optional<Ends> find_ends(const SkinSlice& slice, const RoundFit& fit,
+std::optional<Ends> find_ends(const SurfaceSlice& slice, const RoundFit& fit,
                               const std::vector<Vector3>& points) {
   Ends ends{RoundFit::kEndless, -RoundFit::kEndless, false, false};
   for (const Vector3& x : points) {
@@ -97,7 +98,7 @@ std::optional<Ends> find_ends(const SkinSlice& slice, const RoundFit& fit,
 
 // Of the slice's points between its planes.
 template <typename Depth>
-double find_round_error(const SkinSlice& slice, const Depth& find_distance) {
+double find_round_error(const SurfaceSlice& slice, const Depth& find_distance) {
   double error = 0.0;
   for (const Vector3& x : slice.list_points(slice.facets)) {
     if (((slice.normals.transpose() * x - slice.heights).array() > 0.0).any()) {
@@ -117,7 +118,7 @@ bool is_end(const Piece& piece, const RoundFit& fit, const Ends& ends) {
          10.0 * kRound * fit.radius;
 }
 
-std::optional<SliceBody> find_cylinder(const SkinSlice& slice,
+std::optional<SliceBody> find_cylinder(const SurfaceSlice& slice,
                                        const std::vector<Piece>& pieces,
                                        const Piece& side) {
   const std::vector<Vector3> points = slice.list_points(side.facets);
@@ -146,7 +147,7 @@ std::optional<SliceBody> find_cylinder(const SkinSlice& slice,
       find_round_error(slice, find_distance)};
 }
 
-std::optional<SliceBody> find_whole_ball(const SkinSlice& slice,
+std::optional<SliceBody> find_whole_ball(const SurfaceSlice& slice,
                                          const std::vector<Piece>& pieces) {
   if (pieces.size() != 1 || slice.heights.size() > 0) return {};
   const auto fit = fit_ball(slice.list_points(slice.facets));
@@ -156,8 +157,8 @@ std::optional<SliceBody> find_whole_ball(const SkinSlice& slice,
                    fit->error};
 }
 
-// One that is cut goes on as far as its plane, with a round end behind it.
-std::optional<SliceBody> find_capsule(const SkinSlice& slice,
+// One that is cut continues as far as its plane, with a round end behind it.
+std::optional<SliceBody> find_capsule(const SurfaceSlice& slice,
                                       const std::vector<Piece>& pieces) {
   if (pieces.size() != 1) return {};
   const std::vector<Vector3> points = slice.list_points(slice.facets);
@@ -183,7 +184,7 @@ std::optional<SliceBody> find_capsule(const SkinSlice& slice,
 
 }  // namespace
 
-std::optional<SliceBody> find_round_body(const SkinSlice& slice) {
+std::optional<SliceBody> find_round_body(const SurfaceSlice& slice) {
   if (slice.facets.empty()) return {};
   const std::vector<Piece> pieces = find_pieces(slice);
   const Piece* side = nullptr;

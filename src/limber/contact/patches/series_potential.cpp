@@ -11,12 +11,12 @@
 namespace limber::contact {
 namespace {
 
-Matrix3 turn(const Matrix3& R_WB, const Matrix3& in_B) {
+Matrix3 rotate(const Matrix3& R_WB, const Matrix3& in_B) {
   return R_WB * in_B * R_WB.transpose();
 }
 
-// The force where W goes on along the normal as d^(p + 1), p of its present
-// energy, load and stiffness, and gives way by the layers; or nothing.
+// The force where W continues along the normal as d^(p + 1), p of its present
+// energy, load and stiffness, and deflects by the layers; or nothing.
 std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
   constexpr int kHalvings = 40;
   const Vector3 g = patch.gradient_W.head<3>();
@@ -24,10 +24,10 @@ std::optional<Vector3> find_first_force(const Patch& patch, const Matrix3& R) {
   const Vector3 n = g / N;
   const double stiffness = n.dot(patch.hessian_W.topLeftCorner<3, 3>() * n);
   // 1 / (p + 1)
-  const double share = 1.0 - patch.energy * stiffness / (N * N);
-  const double p = 1.0 / share - 1.0;
+  const double fraction = 1.0 - patch.energy * stiffness / (N * N);
+  const double p = 1.0 / fraction - 1.0;
   if (!(p > 0.5 && p < 4.0)) return std::nullopt;
-  const double give = n.dot(R * n) * N * share * N / patch.energy;
+  const double give = n.dot(R * n) * N * fraction * N / patch.energy;
   double low = 0.0;
   double high = 1.0;
   for (int i = 0; i < kHalvings; ++i) {
@@ -57,9 +57,9 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
   constexpr int kMost = 100;
   constexpr double kTolerance = 1e-6;  // of f, before its last change
   constexpr double kRise = 1e-3;
-  const Matrix3 of_A = turn(bodies.A.R_WB, R_A_);
-  const Matrix3 R = of_A + turn(bodies.B.R_WB, R_B_);
-  // What the places' own digits can tell apart [m].
+  const Matrix3 of_A = rotate(bodies.A.R_WB, R_A_);
+  const Matrix3 R = of_A + rotate(bodies.B.R_WB, R_B_);
+  // The resolution of the positions' own digits [m].
   const double floor = 4.0 * std::numeric_limits<double>::epsilon() *
                        (bodies.B.p_WB - bodies.A.p_WB).norm();
   Vector3 f = Vector3::Zero();
@@ -96,7 +96,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
     }
     // At the end of the change, to its second order.
     patch.energy = energy + 0.5 * (gradient + last).dot(change);
-    // Where A's own layer lets it give way, as B's does.
+    // Where A's own layer deflects, as B's does.
     patch.centre_W -= of_A * f;
     const Eigen::Matrix<double, 6, 3> coupling = patch.hessian_W.leftCols<3>();
     patch.gradient_W += coupling * change;

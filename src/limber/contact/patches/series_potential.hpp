@@ -11,7 +11,7 @@ namespace limber::contact {
 /// Equation   W_s(x) = min over f of W(x + R f) + f' R f / 2, R = R_A + R_B the
 ///            displacement of B against A by a force f on B; gradient that of W
 ///            there, Hessian K - K (1 + R K)^-1 R K, of displacements
-/// Limits     the Hessian neglects the turn of R with the bodies
+/// Limits     the Hessian neglects the rotation of R with the bodies
 class SeriesPotential {
  public:
   /// @param R_A, R_B of both layers, in their bodies' frames, symmetric and

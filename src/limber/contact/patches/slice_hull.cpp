@@ -6,27 +6,27 @@
 #include <utility>
 
 #include "limber/common/index.hpp"
-#include "limber/contact/patches/skin_slice.hpp"
+#include "limber/contact/patches/surface_slice.hpp"
 
 namespace limber::contact {
 namespace {
 
 constexpr std::size_t kMostPlanes = 96;
-constexpr double kSameNormal = 1e-3;  // turn of facets in one plane [rad]
-constexpr double kWider = 1.25;       // of the turn, where planes are too many
-constexpr double kMargin = 1e-3;      // of planes behind it, of its size [-]
+constexpr double kSameNormal = 1e-3;  // angle between facets in one plane [rad]
+constexpr double kWider = 1.25;   // of the angle, if there are too many planes
+constexpr double kMargin = 1e-3;  // of planes behind it, of its size [-]
 
 /// Normals, those with most area first.
-std::vector<Vector3> list_normals(const std::vector<SkinFacet>& facets,
+std::vector<Vector3> list_normals(const std::vector<SurfaceFacet>& facets,
                                   double turn) {
   const double least = std::cos(turn);
-  std::vector<const SkinFacet*> order;
-  for (const SkinFacet& f : facets) order.push_back(&f);
+  std::vector<const SurfaceFacet*> order;
+  for (const SurfaceFacet& f : facets) order.push_back(&f);
   std::ranges::stable_sort(order, [](const auto* a, const auto* b) {
     return a->area.squaredNorm() > b->area.squaredNorm();
   });
   std::vector<Vector3> normals;
-  for (const SkinFacet* f : order) {
+  for (const SurfaceFacet* f : order) {
     const Vector3 n = f->area.normalized();
     const bool is_new = std::ranges::none_of(
         normals, [&](const Vector3& other) { return n.dot(other) > least; });
@@ -53,7 +53,7 @@ ConvexSolid::Ball find_bounds(const std::vector<Vector3>& points) {
 
 // How far its corners stand out of all facets, and points that no other slice
 // has are within it.
-double find_hull_error(const ConvexSolid& solid, const SkinSlice& slice,
+double find_hull_error(const ConvexSolid& solid, const SurfaceSlice& slice,
                        const std::vector<Vector3>& points,
                        const std::vector<Vector3>& normals) {
   double error = 0.0;
@@ -76,7 +76,7 @@ double find_hull_error(const ConvexSolid& solid, const SkinSlice& slice,
 
 }  // namespace
 
-std::optional<SliceBody> find_hull(const SkinSlice& slice) {
+std::optional<SliceBody> find_hull(const SurfaceSlice& slice) {
   if (slice.facets.empty()) return {};
   const std::vector<Vector3> points = slice.list_points(slice.facets);
   constexpr std::size_t kLeast = 4;  // corners of a solid

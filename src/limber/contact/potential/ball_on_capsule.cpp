@@ -112,8 +112,8 @@ Patch BallOnCapsule::press(const Pose& X_capsule, const Vector3& p) const {
   out.gradient_W << f, r.cross(f);
   // The area's a^2 / d, which passes from the side to an end as k does.
   const double rise = of_end_ - of_side_;
-  const double share = rise != 0.0 ? (s.k - of_side_) / rise : 0.0;
-  const double a2_by_d = flatness_ + share * (radius_ - flatness_);
+  const double fraction = rise != 0.0 ? (s.k - of_side_) / rise : 0.0;
+  const double a2_by_d = flatness_ + fraction * (radius_ - flatness_);
   out.spread_W = 0.2 * a2_by_d * d * across;
   Matrix6& K = out.hessian_W;
   K.topLeftCorner<3, 3>() = H;

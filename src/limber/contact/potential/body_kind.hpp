@@ -17,7 +17,7 @@ struct PlacedBody {
   Pose X_BS;
 };
 
-/// @throws ContractError for a skin.
+/// @throws ContractError for a surface.
 [[nodiscard]] BodyKind make_body(const ShapeKind& shape);
 
 }  // namespace limber::contact

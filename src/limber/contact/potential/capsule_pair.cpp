@@ -34,8 +34,9 @@ struct Axis3 {
   [[nodiscard]] Vector3 at(double s) const { return middle + s * way; }
 };
 
-/// Of an end that goes on as an arc: int (t - x^2 / (2 R))^n dx over x > -R psi
-/// within the lens, psi the sine of the way from it above the plane across it.
+/// Of an end that continues as an arc: int (t - x^2 / (2 R))^n dx over x > -R
+/// psi within the lens, psi the sine of the way from it above the plane across
+/// it.
 struct Arc {
   double value = 0.0;
   double by_t = 0.0;
@@ -57,11 +58,11 @@ double integrate_lens(int n, double x) {
 Arc find_arc(int n, double t, double psi, double radius) {
   const double width = std::sqrt(2.0 * radius * t);
   const double xi = std::clamp(psi * radius / width, -1.0, 1.0);
-  const double share = integrate_lens(n, 1.0) + integrate_lens(n, xi);
+  const double fraction = integrate_lens(n, 1.0) + integrate_lens(n, xi);
   const double slope = std::pow(1.0 - xi * xi, n);
   const double power = std::pow(t, n);
-  return {width * power * share,
-          width * power / t * ((n + 0.5) * share - 0.5 * xi * slope),
+  return {width * power * fraction,
+          width * power / t * ((n + 0.5) * fraction - 0.5 * xi * slope),
           radius * power * slope};
 }
 
@@ -280,7 +281,7 @@ class Lens {
     }
   }
 
-  // The arcs of two ends, by the product of their shares.
+  // The arcs of two ends, by the product of their fractions.
   void add_ends(double end_A, double end_B) {
     const Vector3 a = A_.at(end_A * A_.half);
     const Vector3 b = B_.at(end_B * B_.half);

@@ -25,12 +25,12 @@ struct CapsuleTouch {
 ///            meets each place u of the other: with t = R_A + R_B - |r|, r from
 ///            a(s) to b(u),
 ///            M_n = sqrt(R_A R_B) / (R_A + R_B) int int t^n (1 - (a . r)^2 /
-///            r^2) (1 - (b . r)^2 / r^2) ds du, where an end goes on as an arc
-///            x of depth t - x^2 / (2 R) from the plane across its axis;
-///            W = (8 / 15) sqrt(5 / (2 pi)) E* h sqrt(M_4), h of Hertz's
-///            ellipse [@johnson1985] whose radii of curvature have the product
-///            and sum of those that M_4, M_5 and the shares of ends in M_4 give
-/// Limits     depths small beside the radii; the Hessian by differences
+///            r^2) (1 - (b . r)^2 / r^2) ds du, where an end continues as an
+///            arc x of depth t - x^2 / (2 R) from the plane across its axis; W
+///            = (8 / 15) sqrt(5 / (2 pi)) E* h sqrt(M_4), h of Hertz's ellipse
+///            [@johnson1985] whose radii of curvature have the product and sum
+///            of those that M_4, M_5 and the fractions of ends in M_4 give
+/// Limits     depths small relative to the radii; the Hessian by differences
 class CapsulePair {
  public:
   CapsulePair(const Capsule& A, const Capsule& B) : A_(A), B_(B) {}

@@ -73,7 +73,7 @@ struct Cell {
   double sign;
   bool has_derivatives;
 
-  // A tetrahedron, exactly: with shares s_i of its corners the mean of
+  // A tetrahedron, exactly: with fractions s_i of its corners the mean of
   // t^n s_i s_j over it is 6 n! / (n + 5)! (1 + d_ij) times the complete sum of
   // degree n of the corners' t and of t_i and t_j again.
   void add(double volume, const std::array<Vector3, 4>& x,
@@ -352,10 +352,10 @@ class Integration {
     const Vector3 resultant = out_.m1.head<3>().normalized();
     for (const PressedFace& pressed : near_.all()) {
       const Vector3 n = sign_ * (X_.R * face(pressed.face).plane.n);
-      const double share = std::max(-n.dot(resultant), 0.0);
-      out_.pressure += share * pressed.squared.zeroth;
-      out_.first += share * pressed.squared.first;
-      out_.second += share * pressed.squared.second;
+      const double fraction = std::max(-n.dot(resultant), 0.0);
+      out_.pressure += fraction * pressed.squared.zeroth;
+      out_.first += fraction * pressed.squared.first;
+      out_.second += fraction * pressed.squared.second;
     }
   }
 

@@ -15,15 +15,15 @@ namespace limber::contact {
 /// Equation   M = int 4 t^3 dV, m1 = dM = int 12 t^2 g dV - int 4 t^3 (n, r x
 ///            n) dS over the faces of `soft` that do not press; m2 its
 ///            derivative, without that of these faces,
-///            along the motion exp(u, theta) but for terms of theta x u:
+///            along the motion exp(u, theta) except for terms of theta x u:
 ///            int 24 t g g' dV - sum over interfaces of faces i, j
 ///            int 12 t^2 dg dg' / |n_i - n_j| dS - sum_i rotation of the normal
 struct DepthMoments {
   double M = 0.0;                ///< [m^6]
   Vector6 m1 = Vector6::Zero();  ///< [m^5, m^6]
   Matrix6 m2 = Matrix6::Zero();  ///< [m^4, m^5; m^5, m^6]
-  /// int 12 t^2 dV of each face's share along the resultant, n . m1 / |m1| >=
-  /// 0, here and below [m^5].
+  /// int 12 t^2 dV of each face's fraction along the resultant, n . m1 / |m1|
+  /// >= 0, here and below [m^5].
   double pressure = 0.0;
   Vector3 first = Vector3::Zero();   ///< int 12 t^2 r dV [m^6]
   Matrix3 second = Matrix3::Zero();  ///< int 12 t^2 r r' dV [m^7]

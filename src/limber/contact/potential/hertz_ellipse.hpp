@@ -3,8 +3,8 @@
 
 namespace limber::contact {
 
-/// By which an elliptical contact is stiffer than a round one of the same
-/// product of the radii of curvature R_1, R_2, at equal depth.
+/// Factor by which an elliptical contact is stiffer than a round one of the
+/// same product of the radii of curvature R_1, R_2, at equal depth.
 struct EllipseFactor {
   double value = 1.0;
   double slope = 0.0;  ///< by x

@@ -156,7 +156,7 @@ class Splitter {
     return used;
   }
 
-  // Planes above which the cell goes on.
+  // Planes above which the cell continues.
   [[nodiscard]] std::vector<int> find_violated(const CutSurface& cell) const {
     std::vector<int> violated;
     for (const int i : list_planes(cell)) {

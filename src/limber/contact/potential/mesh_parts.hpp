@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostSideBySide = 32;
 /// The inside of a closed surface of flat triangles as convex parts: itself if
 /// it is convex, else cut along its own faces, again and again the one through
 /// which the shortest cut goes. Faces of a part press where they are the
-/// surface at least in part, not where another part goes on. Triangles in a
+/// surface at least in part, not where another part continues. Triangles in a
 /// plane, within 1e-6 of the surface's size, are one face.
 ///
 /// Limits     up to 2000 different planes of a convex surface, 600 of another,

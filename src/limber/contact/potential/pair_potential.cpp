@@ -15,7 +15,7 @@
 namespace limber::contact {
 namespace {
 
-/// The share of W that one body's depth gives, about o.
+/// The fraction of W that one body's depth gives, about o.
 struct Half {
   double energy = 0.0;
   double load = 0.0;
@@ -52,14 +52,14 @@ Matrix6 shift(const Vector3& d) {
 }
 
 // About each axis, 0 where both radii across it are equal.
-Vector3 find_share(const Ellipsoid& body) {
-  Vector3 share;
+Vector3 find_fraction(const Ellipsoid& body) {
+  Vector3 fraction;
   for (int i = 0; i < 3; ++i) {
     const double a = body.radii[(i + 1) % 3];
     const double b = body.radii[(i + 2) % 3];
-    share[i] = std::abs(a - b) / std::max(a, b);
+    fraction[i] = std::abs(a - b) / std::max(a, b);
   }
-  return share;
+  return fraction;
 }
 
 // In the body's frame.
@@ -67,7 +67,7 @@ Matrix3 find_moving_turns(const PlacedBody& body) {
   if (std::holds_alternative<Sphere>(body.kind)) return Matrix3::Zero();
   if (const auto* egg = std::get_if<Ellipsoid>(&body.kind)) {
     const Matrix3& R = body.X_BS.R;
-    return R * find_share(*egg).asDiagonal() * R.transpose();
+    return R * find_fraction(*egg).asDiagonal() * R.transpose();
   }
   const bool is_round = std::holds_alternative<Capsule>(body.kind) ||
                         std::holds_alternative<Cylinder>(body.kind) ||

@@ -16,7 +16,7 @@
 namespace limber::contact {
 
 /// Elastic contact of two convex bodies as one potential of their relative
-/// pose: no rule asks which feature is nearest.
+/// pose: no rule depends on which feature is nearest.
 ///
 /// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,

@@ -5,7 +5,7 @@
 
 namespace limber::contact {
 
-/// The touch of two solids, of one potential, world axes; motions (u, theta)
+/// Contact of two solids by one potential, world axes; motions (u, theta)
 /// and wrenches (force, moment) about the centre of pressure.
 struct Patch {
   bool touches = false;

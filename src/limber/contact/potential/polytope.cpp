@@ -17,8 +17,7 @@ using Rim = StackArray<Vector3, kMostOfRim>;
 
 void check_room(std::size_t count, std::size_t most) {
   if (count < most) return;
-  throw NumericalError(
-      "contact: too many faces of meshes are in one place of contact");
+  throw NumericalError("contact: too many mesh faces in one contact region");
 }
 
 // Of depths below a plane.

@@ -102,7 +102,7 @@ class Polytope {
 /// The part of `in` inside of a plane, whose facet there gets `tag`; empty
 /// where nothing is inside.
 /// @param scratch not `in`
-/// @return `in` if all of it is inside but for round-off, else `scratch`
+/// @return `in` if all of it is inside except for round-off, else `scratch`
 [[nodiscard]] const Polytope& clip(const Polytope& in, const Plane& plane,
                                    int tag, Polytope& scratch);
 

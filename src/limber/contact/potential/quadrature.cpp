@@ -17,7 +17,7 @@ std::array<TrianglePoint, 7> make_triangle_rule() {
     const double a = (6.0 + root) / 21.0;
     for (std::size_t i = 0; i < 3; ++i) {
       rule[k] = {{a, a, a}, (155.0 + root) / 1200.0};
-      rule[k++].share[i] = 1.0 - 2.0 * a;
+      rule[k++].fraction[i] = 1.0 - 2.0 * a;
     }
   }
   return rule;

@@ -8,11 +8,12 @@
 namespace limber::contact {
 
 struct TrianglePoint {
-  std::array<double, 3> share;  ///< of each corner [-]
-  double weight = 0.0;          ///< [-]
+  std::array<double, 3> fraction;  ///< of each corner [-]
+  double weight = 0.0;             ///< [-]
 
   [[nodiscard]] Vector3 find_place(const std::array<Vector3, 3>& corner) const {
-    return share[0] * corner[0] + share[1] * corner[1] + share[2] * corner[2];
+    return fraction[0] * corner[0] + fraction[1] * corner[1] +
+           fraction[2] * corner[2];
   }
 };
 

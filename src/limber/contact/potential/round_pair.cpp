@@ -47,8 +47,8 @@ bool counts(const RuledBody& soft, const RuledBody& other) {
          !is_cone_on_flats;
 }
 
-// c of a cone, whose share of X is 2 (1 - f . a), f the way of the force on it,
-// a its axis; the second derivative is left out.
+// c of a cone, whose fraction of X is 2 (1 - f . a), f the way of the force on
+// it, a its axis; the second derivative is left out.
 class ConeFactor {
  public:
   // @param moments of B's motion against A

@@ -51,7 +51,7 @@ struct RuledSurface {
   [[nodiscard]] bool has_one_normal() const {
     return is_flat() || kind == Kind::kDisc;
   }
-  /// Whether u is an angle that turns all around.
+  /// Whether u is an angle over a full circle.
   [[nodiscard]] bool is_closed() const {
     return kind == Kind::kSide || kind == Kind::kRim;
   }

@@ -16,8 +16,8 @@ struct Factor {
   [[nodiscard]] Factor transform(const Matrix6& T) const;
 };
 
-/// How much stiffer a long place of contact is than a round one of the same M:
-/// as an elliptical flat punch than a round one of its area.
+/// How much stiffer an elongated contact area is than a round one of the same
+/// M: as an elliptical flat punch than a round one of its area.
 ///
 /// Equation   phi = pi sqrt(s) / (2 K(m)), m = 1 - 1/s^2, s^2 + 1/s^2 + 2 = 4
 /// u,

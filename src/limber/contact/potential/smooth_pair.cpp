@@ -19,8 +19,9 @@ Matrix3 find_squares(const Vector3& radii, const Matrix3& R) {
   return R * radii.cwiseAbs2().asDiagonal() * R.transpose();
 }
 
-// The normal by which two ellipsoids touch that are scaled alike [@perram1985]:
-// of the largest a (1 - a) r . [(1 - a) A + a B]^-1 r, concave in a.
+// The normal of contact of two ellipsoids that are scaled equally
+// [@perram1985]: of the largest a (1 - a) r . [(1 - a) A + a B]^-1 r, concave
+// in a.
 Vector3 find_way_of_scaled(const Matrix3& A, const Matrix3& B,
                            const Vector3& r) {
   constexpr double kGolden = 0.6180339887498949;
@@ -137,11 +138,11 @@ class SmoothPair::Touch {
   };
   [[nodiscard]] Expansion expand() const {
     const Motion at = follow();
-    const JetVector y1 = turn(at.e1, -1.0);
-    const JetVector y2 = turn(at.e2, -1.0);
+    const JetVector y1 = apply_rotation(at.e1, -1.0);
+    const JetVector y2 = apply_rotation(at.e2, -1.0);
     const Matrix3 R = X_B_.R.transpose();
     const Plane2 radii =
-        find_radii(squares_B_, R * turn(at.n, -1.0), R * y1, R * y2);
+        find_radii(squares_B_, R * apply_rotation(at.n, -1.0), R * y1, R * y2);
     const Plane2 own = radii.inverse();
     HertzForm form;
     if (A_.is_plane) {
@@ -195,8 +196,8 @@ class SmoothPair::Touch {
       at = end_ * half;
       // By the rule of Illinois.
       for (int i = 0, side = 0; i < 100 && end_ == 0.0; ++i) {
-        const double share = i % 4 == 3 ? 0.5 : of_low / (of_low - of_high);
-        at = low + share * (high - low);
+        const double fraction = i % 4 == 3 ? 0.5 : of_low / (of_low - of_high);
+        at = low + fraction * (high - low);
         if (!(high - low > 1e-15 * half)) break;
         const double now = slope(at);
         if (std::abs(now) < 1e-15) break;
@@ -270,9 +271,9 @@ class SmoothPair::Touch {
     JetVector on_B;
     JetVector g;
     const auto evaluate = [&] {
-      const JetVector y = turn(m, -1.0);
+      const JetVector y = apply_rotation(m, -1.0);
       const JetVector Cy = C_B_ * y;
-      on_B = turn(invert(sqrt(dot(y, Cy))) * Cy, 1.0);
+      on_B = apply_rotation(invert(sqrt(dot(y, Cy))) * Cy, 1.0);
       g = on_B - moved + make_jets(p_A);
       if (A_.is_plane) return;
       const JetVector Cm = C_A_ * m;
@@ -315,17 +316,17 @@ class SmoothPair::Touch {
       place = Jet(end_ * A_.half_length) + dot(axis_, at.n) * P.det() / P.yy;
     }
     const Jet by_width = invert(sqrt(at_end.radius * at.depth));
-    const auto find_share = [&](double end) {
+    const auto find_fraction = [&](double end) {
       const Jet x = (end * place - Jet(A_.half_length)) * by_width;
       const Blend b = blend(x.value);
       return x.apply(b.value, b.slope, b.bend);
     };
-    const Jet share = find_share(-1.0) + find_share(1.0);
-    if (share.value == 1.0 && share.slope.isZero(0.0)) return at_end;
+    const Jet fraction = find_fraction(-1.0) + find_fraction(1.0);
+    if (fraction.value == 1.0 && fraction.slope.isZero(0.0)) return at_end;
     const HertzForm on_side =
         find_form(own + Plane2{Jet(0.0), Jet(0.0), Jet(1.0 / r)});
     const auto pass = [&](const Jet& from, const Jet& to) {
-      return from + share * (to - from);
+      return from + fraction * (to - from);
     };
     return {pass(on_side.radius, at_end.radius),
             pass(on_side.stiffness, at_end.stiffness)};

@@ -67,8 +67,8 @@ struct Bounds {
   [[nodiscard]] bool is_empty() const {
     return !((high - low).minCoeff() > 0.0);
   }
-  void grow(double share) {
-    const Vector3 by = share * (high - low);
+  void grow(double fraction) {
+    const Vector3 by = fraction * (high - low);
     low -= by;
     high += by;
   }

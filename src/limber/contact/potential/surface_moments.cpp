@@ -201,7 +201,8 @@ Matrix6 find_bend_of_form(const Weights10& q, const Slopes& slopes,
   return 0.5 * (bend + bend.transpose());
 }
 
-// `bend` of the sums' second derivatives, but for those of g; 0 if not wanted.
+// `bend` of the sums' second derivatives, except for those of g; 0 if not
+// wanted.
 Factor find_factor_of_form(const Form& form, const Slopes& slopes,
                            const Matrix6& bend) {
   constexpr double kStep = 1e-4;
@@ -240,7 +241,7 @@ void SurfaceContact::integrate_parts(const Vector3& o, Sums& sums) const {
 
 DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
                                        bool has_derivatives) const {
-  // Share of M next to an edge of `soft`, from which on ln u, whose second
+  // Fraction of M next to an edge of `soft`, from which on ln u, whose second
   // derivative jumps there, counts as ln (C / x) of the motion x.
   constexpr double kEdged = 1e-2;
   KeptSums kept;
@@ -263,9 +264,9 @@ DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
   Weights10 pressure = Weights10::Zero();
   Slopes slopes = Slopes::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double share = way[static_cast<Eigen::Index>(k)];
-    pressure += share * sums.cubed[k];
-    slopes += share * sums.by_motion[k];
+    const double fraction = way[static_cast<Eigen::Index>(k)];
+    pressure += fraction * sums.cubed[k];
+    slopes += fraction * sums.by_motion[k];
   }
   out.pressure = pressure[0];
   out.first = pressure.segment<3>(1);

@@ -20,8 +20,8 @@ namespace limber::contact {
 /// Limits     one place of contact; quadrature of 12 lines in a part of which
 ///            the lines' ends and faces are the same: about 1e-7 of M; of a
 ///            cylinder the sheet where both ends are equally near is left out;
-///            the factor's derivatives leave out the turn of the resultant and
-///            of g, the second one is rough next to edges
+///            the factor's derivatives leave out the rotation of the resultant
+///            and of g, the second one is rough next to edges
 class SurfaceContact {
  public:
   /// @param X the pose of `hard` in the frame of `soft`

@@ -84,8 +84,10 @@ class Search {
     int side = 0;
     for (int i = 0; i < kMostSteps; ++i) {
       if (std::abs(out.u - in.u) < kEnd * std::abs(out.u - touching.u)) break;
-      const double share = i % 4 == 3 ? 0.5 : in.depth / (in.depth - out.depth);
-      const double u = in.u + std::clamp(share, 1e-3, 0.999) * (out.u - in.u);
+      const double fraction =
+          i % 4 == 3 ? 0.5 : in.depth / (in.depth - out.depth);
+      const double u =
+          in.u + std::clamp(fraction, 1e-3, 0.999) * (out.u - in.u);
       const double depth = find_depth(u);
       if (depth > 0.0) {
         in = {u, depth};
@@ -181,9 +183,9 @@ void add_changes(const RuledSurface& surface, const DepthField& body,
   double u = part.first + kInside * part.length();
   std::uint64_t code = describe_line(surface, body, u);
   for (int i = 1; i <= kSamples; ++i) {
-    const double share =
+    const double fraction =
         i == kSamples ? 1.0 - kInside : static_cast<double>(i) / kSamples;
-    const double end = part.first + share * part.length();
+    const double end = part.first + fraction * part.length();
     const std::uint64_t next = describe_line(surface, body, end);
     while (code != next && out.all().size() < kMost) {
       double before = u;

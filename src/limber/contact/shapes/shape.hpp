@@ -9,7 +9,7 @@
 
 namespace limber::contact {
 
-class Skin;
+class MeshSurface;
 
 /// Shapes, each about the origin of its own frame.
 struct Sphere {
@@ -39,20 +39,22 @@ struct Box {
 /// z <= 0.
 struct HalfSpace {};
 
-using ShapeKind = std::variant<Sphere, Capsule, Cylinder, Box, HalfSpace,
-                               std::shared_ptr<const Skin>, Cone, Ellipsoid>;
+using ShapeKind =
+    std::variant<Sphere, Capsule, Cylinder, Box, HalfSpace,
+                 std::shared_ptr<const MeshSurface>, Cone, Ellipsoid>;
 
-/// A shape attached to a body. A Skin deforms with the body's modes; all others
-/// move with its frame.
+/// A shape attached to a body. A MeshSurface deforms with the body's modes; all
+/// others move with its frame.
 struct Shape {
   ShapeKind kind;
-  Pose X_BS;  ///< the shape's frame in the body frame; identity for a Skin
+  Pose X_BS;  ///< the shape's frame in the body frame; identity for a
+              ///< MeshSurface
 };
 
 /// A material point of a shape's surface.
 struct SurfacePlace {
   Vector3 x_B = Vector3::Zero();  ///< undeformed, body frame [m]
-  int face = -1;                  ///< of a Skin
+  int face = -1;                  ///< of a MeshSurface
   double u = 0.0;                 ///< weight of the face's corner 1 [-]
   double v = 0.0;                 ///< weight of its corner 2 [-]
 };

@@ -7,13 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
-#include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {
 namespace {
 
-using SkinPointer = std::shared_ptr<const Skin>;
+using SurfacePointer = std::shared_ptr<const MeshSurface>;
 
 template <typename Array>
 std::vector<double> list_values(const Array& array) {
@@ -41,8 +41,8 @@ void describe_kind(Manifest& out, const Box& box) {
 
 void describe_kind(Manifest& /*out*/, const HalfSpace& /*space*/) {}
 
-void describe_kind(Manifest& out, const SkinPointer& skin) {
-  const flexbody::ContactSurface& surface = skin->surface();
+void describe_kind(Manifest& out, const SurfacePointer& mesh_surface) {
+  const flexbody::ContactSurface& surface = mesh_surface->surface();
   std::vector<double> faces;
   for (const auto& face : surface.faces) {
     faces.insert(faces.end(), face.begin(), face.end());
@@ -68,7 +68,7 @@ double find_own_roundness(const Shape& shape) {
           return std::min(kind.radius, kind.half_length);
         } else if constexpr (std::is_same_v<Kind, HalfSpace>) {
           return 0.0;  // none
-        } else if constexpr (std::is_same_v<Kind, SkinPointer>) {
+        } else if constexpr (std::is_same_v<Kind, SurfacePointer>) {
           return kind->surface().patch_radius.maxCoeff();
         } else {
           return kind.radius;
@@ -100,9 +100,9 @@ double find_size(const Shape& A, const Shape& B) {
 }
 
 VectorX find_mode_reach(const Shape& shape) {
-  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
-  if (skin == nullptr) return VectorX::Zero(0);
-  return (*skin)->find_mode_reach();
+  const auto* mesh_surface = std::get_if<SurfacePointer>(&shape.kind);
+  if (mesh_surface == nullptr) return VectorX::Zero(0);
+  return (*mesh_surface)->find_mode_reach();
 }
 
 joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
@@ -115,8 +115,9 @@ joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
 
 double find_own_speed(const Shape& shape, const VectorX& mode_reach,
                       const joints::PairBody& body) {
-  const double turn = body.w_WB_B.norm();
-  double speed = turn > 0.0 ? turn * find_extent(shape, body) : 0.0;
+  const double angular_speed = body.w_WB_B.norm();
+  double speed =
+      angular_speed > 0.0 ? angular_speed * find_extent(shape, body) : 0.0;
   for (Eigen::Index k = 0; k < mode_reach.size(); ++k) {
     speed += mode_reach[k] * std::abs(body.etadot[k]);
   }

@@ -10,12 +10,12 @@
 
 namespace limber::contact {
 
-/// Adds kind, sizes and pose of a shape; of a Skin its nodes and tables.
+/// Adds kind, sizes and pose of a shape; of a MeshSurface its nodes and tables.
 void describe(Manifest& out, std::string_view name, const Shape& shape);
 
 /// Largest radius of curvature for a contact of both: the larger of the shapes'
-/// radii, of half of their shortest edges, or of a Skin the largest radius of
-/// its patches [m].
+/// radii, of half of their shortest edges, or of a MeshSurface the largest
+/// radius of its patches [m].
 [[nodiscard]] double find_roundness(const Shape& A, const Shape& B);
 
 /// The smaller of both shapes' roundnesses; a half space has none [m].

@@ -9,12 +9,12 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/overloaded.hpp"
 #include "limber/contact/law/check_value.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 namespace limber::contact {
 namespace {
 
-using SkinPointer = std::shared_ptr<const Skin>;
+using SurfacePointer = std::shared_ptr<const MeshSurface>;
 
 void check_size(const char* what, double value) {
   check_value(value > 0.0, what, value, "> 0");
@@ -49,9 +49,9 @@ void check_kind(const ShapeKind& kind) {
                    }
                  },
                  [](const HalfSpace&) {},
-                 [](const SkinPointer& skin) {
-                   if (skin != nullptr) return;
-                   throw InputError("contact: its skin is missing");
+                 [](const SurfacePointer& mesh_surface) {
+                   if (mesh_surface != nullptr) return;
+                   throw InputError("contact: its surface is missing");
                  }},
       kind);
 }
@@ -74,9 +74,9 @@ double find_size(const ShapeKind& kind, const joints::PairBody& body) {
                  [](const HalfSpace&) {
                    return std::numeric_limits<double>::infinity();
                  },
-                 [&body](const SkinPointer& skin) {
-                   return skin->find_extent(
-                       find_modal_coordinates(*skin, body));
+                 [&body](const SurfacePointer& mesh_surface) {
+                   return mesh_surface->find_extent(
+                       find_modal_coordinates(*mesh_surface, body));
                  }},
       kind);
 }
@@ -91,7 +91,7 @@ std::string name_kind(const Shape& shape) {
                                [](const Ellipsoid&) { return "ellipsoid"; },
                                [](const Box&) { return "box"; },
                                [](const HalfSpace&) { return "half space"; },
-                               [](const SkinPointer&) { return "skin"; }},
+                               [](const SurfacePointer&) { return "skin"; }},
                     shape.kind);
 }
 
@@ -102,23 +102,22 @@ void check_shape(const Shape& shape) {
   const double error = (R.transpose() * R - Matrix3::Identity()).norm();
   if (!(error < kRoundOff) || !(R.determinant() > 0.0) ||
       !shape.X_BS.p.allFinite()) {
-    throw InputError(
-        fmt::format("contact: the pose of its {} is no rotation and finite "
-                    "position",
-                    name_kind(shape)));
+    throw InputError(fmt::format(
+        "contact: the pose of its {} is not a rotation and a finite position",
+        name_kind(shape)));
   }
   const bool is_at_body =
       shape.X_BS.p.isZero(0.0) && (R - Matrix3::Identity()).isZero(0.0);
-  if (std::holds_alternative<SkinPointer>(shape.kind) && !is_at_body) {
+  if (std::holds_alternative<SurfacePointer>(shape.kind) && !is_at_body) {
     throw InputError(
-        "contact: its skin has a pose of its own; expected that of its body, "
-        "whose frame its nodes are in");
+        "contact: its surface has its own pose; expected that of its body, in "
+        "whose frame its nodes are given");
   }
 }
 
 int count_modes(const Shape& shape) {
-  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
-  return skin == nullptr ? 0 : (*skin)->mode_count();
+  const auto* mesh_surface = std::get_if<SurfacePointer>(&shape.kind);
+  return mesh_surface == nullptr ? 0 : (*mesh_surface)->mode_count();
 }
 
 double find_extent(const Shape& shape, const joints::PairBody& body) {

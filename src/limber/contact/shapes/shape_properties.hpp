@@ -13,10 +13,10 @@ namespace limber::contact {
 [[nodiscard]] std::string name_kind(const Shape& shape);
 
 /// @throws InputError if a size is not positive and finite, the pose is not
-/// rigid, or a Skin is missing or not at the body's own frame.
+/// rigid, or a MeshSurface is missing or not at the body's own frame.
 void check_shape(const Shape& shape);
 
-/// Number of the body's modes that move the shape: 0 except for a Skin.
+/// Number of the body's modes that move the shape: 0 except for a MeshSurface.
 [[nodiscard]] int count_modes(const Shape& shape);
 
 /// An upper bound of the distance of the deformed shape's points from Bo;

@@ -89,8 +89,8 @@ Matrix3 AxialLoad::calc_stress(const SystemState& state, Side side,
                                const SystemTerms& terms) const {
   const Vector3& w = state.bodies[index(body_)].w_WB_B;
   const Matrix3 R_BW = terms.bodies[index(body_)].R_WB.transpose();
-  const Matrix3 turn = skew(w) * skew(w);
-  Matrix3 T = -S0_ * turn;
+  const Matrix3 rotation = skew(w) * skew(w);
+  Matrix3 T = -S0_ * rotation;
   const auto add = [&](AttachmentIndex where, const Vector3& force_B) {
     if (model_->attachments[index(where)].body != body_) return;
     T += terms.attachments[index(where)].arm_B * force_B.transpose();
@@ -132,27 +132,28 @@ AxialState AxialLoad::calc_state(const SystemState& state, Side side,
   for (int k = 0; k < 3; ++k) {
     if (loads_[k] == 0.0) continue;
     const double along = axes_.col(k).dot(T * axes_.col(k));
-    include(largest.share, along / loads_[k]);
+    include(largest.fraction, along / loads_[k]);
     include(largest.strain, along * softness_[k]);
   }
   return largest;
 }
 
-InterfaceTurn find_turn(const SystemModel& model, BodyIndex body,
-                        const VectorX& eta) {
-  InterfaceTurn turn;
+InterfaceRotation find_rotation(const SystemModel& model, BodyIndex body,
+                                const VectorX& eta) {
+  InterfaceRotation rotation;
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const Attachment& a = model.attachments[i];
     if (a.body != body || a.Psi_B.cols() != eta.size()) continue;
     const Vector3 own = a.Psi_B * eta;
-    turn.own = std::max(turn.own, own.norm());
+    rotation.own = std::max(rotation.own, own.norm());
     for (std::size_t j = 0; j < i; ++j) {
       const Attachment& b = model.attachments[j];
       if (b.body != body || b.Psi_B.cols() != eta.size()) continue;
-      turn.relative = std::max(turn.relative, (own - b.Psi_B * eta).norm());
+      rotation.relative =
+          std::max(rotation.relative, (own - b.Psi_B * eta).norm());
     }
   }
-  return turn;
+  return rotation;
 }
 
 }  // namespace limber::dynamics

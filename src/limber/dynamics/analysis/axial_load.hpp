@@ -7,10 +7,10 @@
 
 namespace limber::dynamics {
 
-/// Axial load and strain of a body at one instant.
+/// Axial load and strain of a body at one time.
 struct AxialState {
-  double share = 0.0;   ///< of what makes it buckle, > 0 under tension [-]
-  double strain = 0.0;  ///< mean, > 0 under tension [-]
+  double fraction = 0.0;  ///< of what makes it buckle, > 0 under tension [-]
+  double strain = 0.0;    ///< mean, > 0 under tension [-]
 };
 
 /// Axial load of a body, compared with its buckling load and its axial
@@ -65,12 +65,13 @@ class AxialLoad {
 
 /// Largest rotation of the body's interfaces relative to its mean axes, and to
 /// one another [rad].
-struct InterfaceTurn {
+struct InterfaceRotation {
   double own = 0.0;
   double relative = 0.0;
 };
 /// To first order in eta. @param eta m, the body's modal coordinates [kg^1/2 m]
-[[nodiscard]] InterfaceTurn find_turn(const SystemModel& model, BodyIndex body,
-                                      const VectorX& eta);
+[[nodiscard]] InterfaceRotation find_rotation(const SystemModel& model,
+                                              BodyIndex body,
+                                              const VectorX& eta);
 
 }  // namespace limber::dynamics

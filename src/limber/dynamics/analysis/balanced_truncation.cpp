@@ -115,19 +115,19 @@ void check(const LinearModel& model, const SchurForm& form, const Decay& decays,
            Index kept, Index states) {
   if (model.inputs.empty() || model.outputs.empty()) {
     throw InputError(fmt::format(
-        "the model has {} inputs and {} outputs; which states matter is "
-        "measured from inputs to outputs, and needs one of each",
+        "the model has {} inputs and {} outputs; the importance of states is "
+        "measured from inputs to outputs, which needs at least one of each",
         model.inputs.size(), model.outputs.size()));
   }
   const Index n = model.A.rows();
   if (states > n) {
     throw InputError(fmt::format(
-        "{} states are asked for; the model has {} to begin with", states, n));
+        "{} states are requested; the model has only {}", states, n));
   }
   if (states < std::max<Index>(kept, 1)) {
     throw InputError(fmt::format(
-        "{} states are asked for, but {} of {} do not decay ({}) and can not "
-        "be left out; ask for at least {}{}",
+        "{} states are requested, but {} of {} do not decay ({}) and cannot be "
+        "left out; request at least {}{}",
         states, kept, n, describe_kept(form, decays), std::max<Index>(kept, 1),
         kept > 0 ? ", or give the links damping" : ""));
   }

@@ -36,8 +36,8 @@ struct TruncatedModel {
 ///            the model, and so exact at high frequencies; the static gain is
 ///            not exact
 /// @param states number of states of the result, those kept included
-/// @throws InputError for fewer states than are kept, or more than there are; a
-/// model without inputs or outputs.
+/// @throws InputError for fewer states than must remain, or more than there
+/// are; a model without inputs or outputs.
 [[nodiscard]] TruncatedModel truncate_balanced(const LinearModel& model,
                                                Eigen::Index states);
 

@@ -50,7 +50,7 @@ std::string describe_coupler_rounding(const SystemModel& model,
     if (!(noise > worst)) continue;
     worst = noise;
     text = fmt::format(
-        "Rounding of positions changes the force of coupler '{}' by {:.2g} N, "
+        "Round-off of positions changes the force of coupler '{}' by {:.2g} N, "
         "where {:.3g} N act: it is too stiff to be solved; make it softer",
         model.couplers[c].name, noise, acting);
   }
@@ -78,7 +78,7 @@ class Continuation {
     constexpr double kOnTheWay = 1e-6;
     constexpr int kEasy = 6;  // most iterations after which the load step grows
     double reached = 0.0;
-    double step = settings_.largest_share;
+    double step = settings_.largest_fraction;
     int steps = 0;
     while (reached < 1.0) {
       const double next = std::min(1.0, reached + step);
@@ -93,12 +93,12 @@ class Continuation {
         ++steps;
         report(progress, "equilibrium", reached);
         if (newton_.iterations() - before <= kEasy) {
-          step = std::min(2.0 * step, settings_.largest_share);
+          step = std::min(2.0 * step, settings_.largest_fraction);
         }
         continue;
       }
       step = 0.5 * (next - reached);
-      if (step < settings_.smallest_share)
+      if (step < settings_.smallest_fraction)
         fail(reached, newton_.lengths().measure_forces(unbalanced).maxCoeff());
     }
     return steps;
@@ -229,8 +229,8 @@ Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
                              const Progress& progress) {
   if (!model.pairs.empty()) {
     throw InputError(fmt::format(
-        "pair '{}': equilibria are not found with pairs yet; use couplers, or "
-        "simulate with damping until the motion ends",
+        "pair '{}': static equilibrium with pairs is not supported; use "
+        "couplers, or simulate with damping until the motion ends",
         model.pairs[0].name));
   }
   Equilibrium found;

@@ -21,11 +21,11 @@ enum class EquilibriumMethod {
 
 struct EquilibriumSettings {
   EquilibriumMethod method = EquilibriumMethod::newton;
-  double tolerance = 1e-12;       ///< last correction over the extents [-]
-  int newton_iterations = 20;     ///< largest number per load step
-  double smallest_share = 1e-4;   ///< of the load, a load step [-]
-  double largest_share = 1.0;     ///< of the load, a load step [-]
-  int relaxation_steps = 100000;  ///< largest number
+  double tolerance = 1e-12;         ///< last correction over the extents [-]
+  int newton_iterations = 20;       ///< largest number per load step
+  double smallest_fraction = 1e-4;  ///< of the load, a load step [-]
+  double largest_fraction = 1.0;    ///< of the load, a load step [-]
+  int relaxation_steps = 100000;    ///< largest number
 };
 
 /// A static equilibrium.
@@ -55,7 +55,7 @@ struct Equilibrium {
 ///            Comput. Phys. 193, 2004 [@knoll2004].
 /// @throws InputError if a net force or moment acts on free bodies;
 /// NumericalError at a limit point or for unconstrained motion, naming the body
-/// that moves most and the share of the load reached.
+/// that moves most and the fraction of the load reached.
 [[nodiscard]] Equilibrium find_equilibrium(
     const SystemModel& model, const SystemState& start,
     const EquilibriumSettings& settings = {}, const Progress& progress = {});

@@ -7,9 +7,10 @@
 
 namespace limber::dynamics {
 
-/// Lengths of increments beside the size of what moves: each group of bodies
-/// that are linked to each other is measured by its own masses and extent, so
-/// that a test does not depend on other bodies of the scene, nor on places.
+/// Lengths of increments relative to the size of what moves: each group of
+/// bodies that are linked to each other is measured by its own masses and
+/// extent, so that a test does not depend on other bodies of the scene, nor on
+/// places.
 ///
 /// Equation   L^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
 ///            + m |du|^2 / N) / sum_b m   over the bodies of a group,

@@ -7,7 +7,7 @@
 
 namespace limber::dynamics {
 
-/// The small motion of bodies that no other's depends on.
+/// Small motion of a set of bodies that is independent of the other bodies.
 struct GroupMotion {
   /// In their coordinates, with the links that these move; `damping`,
   /// velocities and frames are left out.

@@ -12,7 +12,7 @@
 namespace limber::dynamics {
 namespace {
 
-/// Share of the buckling load that the estimate cannot resolve [-].
+/// Fraction of the buckling load that the estimate cannot resolve [-].
 constexpr double kNearBuckling = 0.1;
 
 void check_setting(const std::optional<double>& value, const char* what,
@@ -50,7 +50,7 @@ VectorX find_modal_drift(const BodyModel& body, const BodyPeaks& peaks,
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   const VectorX omega = lambda.cwiseSqrt();
   const double Omega = peaks.Omega.value;
-  const auto bound = [](double share) { return std::min(share, 2.0); };
+  const auto bound = [](double fraction) { return std::min(fraction, 2.0); };
   VectorX drift(body.modes);
   for (int k = 0; k < body.modes; ++k) {
     drift[k] = bound(time * Omega * Omega / omega[k]) * peaks.oscillation[k];
@@ -97,7 +97,7 @@ double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
   return peaks.mode_sizes.dot(answer + drift);
 }
 
-/// Share of the stiffness that axial load gives and `coupled` lacks, by
+/// Fraction of the stiffness that axial load gives and `coupled` lacks, by
 /// differences of its frequencies and deflections from those of the closed
 /// forms (docs/theory/choosing.md). The frame of a held body has the rest.
 double find_missing(const BodyPeaks& peaks) {
@@ -158,12 +158,12 @@ double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
 /// "1.2e-06 m".
 std::string metres(double value) { return fmt::format("{:.2g} m", value); }
 
-/// Whether the user neglects an error, or it is a small share of the
+/// Whether the user neglects an error, or it is a small fraction of the
 /// deformation.
 bool is_negligible(double error, const BodyPeaks& peaks,
                    const LevelLimits& limits) {
   return error <=
-         std::max(limits.displacement, kLargestShare * peaks.total.value);
+         std::max(limits.displacement, kLargestFraction * peaks.total.value);
 }
 
 /// Why linear elasticity is insufficient, or even `nonlinear`.
@@ -180,12 +180,12 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
                     metres(peaks.deformation.value), peaks.deformation.time,
                     metres(limits.linear_limit)));
   }
-  if (peaks.relative_turn.value > kLargestTurn ||
-      peaks.turn.value > kLargestTurn) {
+  if (peaks.relative_rotation.value > kLargestRotation ||
+      peaks.rotation.value > kLargestRotation) {
     add(fmt::format(
-        "its interfaces turn by {:.2g} rad, relative to one another "
-        "by {:.2g} rad, beyond {:g} rad",
-        peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
+        "its interfaces rotate by {:.2g} rad, relative to one "
+        "another by {:.2g} rad, beyond {:g} rad",
+        peaks.rotation.value, peaks.relative_rotation.value, kLargestRotation));
   }
   const bool is_stretched =
       !is_negligible(advice.errors.nonlinear, peaks, limits);
@@ -204,8 +204,8 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
         metres(advice.errors.coupled), metres(peaks.total.value)));
   }
   if (advice.level == Fidelity::full) {
-    add(is_stretched ? "only level full is right"
-                     : "only level full is right, or level nonlinear of the "
+    add(is_stretched ? "only level full is valid"
+                     : "only level full is valid, or level nonlinear of the "
                        "link in more pieces");
   }
   return text;
@@ -218,8 +218,8 @@ std::string describe_deformation(const BodyPeaks& peaks,
   const std::string own =
       fmt::format("it deforms by {}", metres(peaks.deformation.value));
   if (errors.rigid <= kFarther * peaks.deformation.value) return own;
-  return fmt::format("{}, which moves what it carries by up to {}", own,
-                     metres(errors.rigid));
+  return fmt::format("{}, which moves the bodies attached to it by up to {}",
+                     own, metres(errors.rigid));
 }
 
 std::string explain(const BodyModel& body, const BodyPeaks& peaks,
@@ -229,11 +229,11 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
   switch (advice.level) {
     case Fidelity::rigid:
       if (body.modes == 0) return "it has no modes";
-      return fmt::format("all that its modes do stays at {}, within {}",
+      return fmt::format("its modes move it by at most {}, within {}",
                          metres(e.rigid), limit);
     case Fidelity::uncoupled:
       if (body.clamped) {
-        return fmt::format("it bends by {}, more than {}; it does not turn",
+        return fmt::format("it bends by {}, more than {}; it does not rotate",
                            metres(e.rigid), limit);
       }
       return fmt::format("{}; rotation changes that by {}, within {}",
@@ -242,14 +242,14 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
     case Fidelity::one_way:
       if (e.uncoupled <= limits.displacement) {
         return fmt::format(
-            "nodal inertial forces reach {:.2g} N, more than {:.2g} N; what "
-            "one-way neglects moves it by {}, within {}",
+            "nodal inertial forces reach {:.2g} N, more than {:.2g} N; the "
+            "terms that one-way neglects move it by {}, within {}",
             peaks.force.value, limits.force.value_or(0.0), metres(e.one_way),
             limit);
       }
       return fmt::format(
-          "inertial forces move it by {}, more than {}; what one-way neglects, "
-          "by {}",
+          "inertial forces move it by {}, more than {}; the terms that one-way "
+          "neglects, by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::nonlinear:
     case Fidelity::full:
@@ -258,9 +258,8 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
       break;
   }
   return fmt::format(
-      "{}, while it turns by {:.2g} rad at up to {:.2g} rad/s: without "
-      "coupling "
-      "the error may reach {}, more than {}",
+      "{}, while it rotates by {:.2g} rad at up to {:.2g} rad/s: without "
+      "coupling the error may reach {}, more than {}",
       describe_deformation(peaks, e), peaks.angle, peaks.Omega.value,
       metres(e.one_way), limit);
 }
@@ -277,8 +276,9 @@ LevelLimits find_limits(const AdviceSettings& settings,
                         const flexbody::ReducedBody& body) {
   check(settings);
   const double size = body.size.maxCoeff();
-  return {settings.displacement.value_or(kNeglectedShare * size),
-          settings.linear_limit.value_or(kLinearShare * size), settings.force};
+  return {settings.displacement.value_or(kNeglectedFraction * size),
+          settings.linear_limit.value_or(kLinearFraction * size),
+          settings.force};
 }
 
 LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
@@ -311,12 +311,12 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
     advice.level = Fidelity::one_way;
   }
   advice.is_beyond_linear = peaks.deformation.value > limits.linear_limit ||
-                            peaks.relative_turn.value > kLargestTurn;
+                            peaks.relative_rotation.value > kLargestRotation;
   if (advice.is_beyond_linear ||
       (advice.level > Fidelity::rigid &&
        !is_negligible(advice.errors.coupled, peaks, limits))) {
     const bool is_too_far =
-        peaks.turn.value > kLargestTurn ||
+        peaks.rotation.value > kLargestRotation ||
         peaks.compression.value > kLargestLoad ||
         !is_negligible(advice.errors.nonlinear, peaks, limits);
     advice.level = is_too_far ? Fidelity::full : Fidelity::nonlinear;

@@ -8,7 +8,7 @@
 
 namespace limber::dynamics {
 
-/// What a user is willing to neglect. Defaults scale with the body: the
+/// Errors that a user is willing to neglect. Defaults scale with the body: the
 /// report's 1 um and 5 cm for a beam of 5 m.
 struct AdviceSettings {
   std::optional<double> displacement;  ///< > 0 [m]
@@ -18,8 +18,8 @@ struct AdviceSettings {
 /// @throws InputError if one that is set is not positive and finite.
 void check(const AdviceSettings& settings);
 /// Fractions of the longest edge of the body's bounding box [-].
-inline constexpr double kNeglectedShare = 2e-7;
-inline constexpr double kLinearShare = 0.01;
+inline constexpr double kNeglectedFraction = 2e-7;
+inline constexpr double kLinearFraction = 0.01;
 
 /// The settings for one body.
 struct LevelLimits {
@@ -59,13 +59,13 @@ struct LevelErrors {
                                           const BodyPeaks& peaks);
 
 /// Largest error of a level relative to the deformation, where that exceeds
-/// what the user neglects [-].
-inline constexpr double kLargestShare = 0.1;
+/// the neglected errors [-].
+inline constexpr double kLargestFraction = 0.1;
 /// Rotation of interfaces relative to one another beyond which linear
 /// kinematics, and relative to the mean axes beyond which those of second order
 /// are off by 2 % [rad].
-inline constexpr double kLargestTurn = 0.4;
-/// Share of the buckling load beyond which `nonlinear` is not reliable
+inline constexpr double kLargestRotation = 0.4;
+/// Fraction of the buckling load beyond which `nonlinear` is not reliable
 /// [-].
 inline constexpr double kLargestLoad = 0.8;
 

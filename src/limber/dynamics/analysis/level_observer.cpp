@@ -209,21 +209,21 @@ void LevelObserver::include_axial_load(const SystemState& state, Side side,
       observed.axial.calc_state(state, side, terms_);
   const double strain = std::abs(mean_strain);
   const double time = state.t - observed.last_time;
-  const double share =
+  const double fraction =
       observed.has_begun
-          ? now + (observed.last_share - now) *
+          ? now + (observed.last_fraction - now) *
                       std::exp(-time * observed.axial.frequency())
           : now;
   BodyPeaks& peaks = observed.peaks;
-  include_largest(peaks.tension, share, state.t);
-  include_largest(peaks.compression, -share, state.t);
+  include_largest(peaks.tension, fraction, state.t);
+  include_largest(peaks.compression, -fraction, state.t);
   if (observed.has_begun) {
     peaks.axial_time +=
-        0.5 * (std::abs(share) + std::abs(observed.last_share)) * time;
+        0.5 * (std::abs(fraction) + std::abs(observed.last_fraction)) * time;
     peaks.strain_time += 0.5 * (strain + observed.last_strain) * time;
   }
   include_largest(peaks.strain, strain, state.t);
-  observed.last_share = share;
+  observed.last_fraction = fraction;
   observed.last_strain = strain;
 }
 
@@ -271,9 +271,9 @@ void LevelObserver::include_deformation(const SystemState& state,
   include_largest(observed.peaks.oscillation, observed.swings);
   observed.total.include(eta, state.t);
   observed.deformation.include(eta, state.t);
-  const InterfaceTurn turn = find_turn(model_, observed.body, eta);
-  include_largest(observed.peaks.turn, turn.own, state.t);
-  include_largest(observed.peaks.relative_turn, turn.relative, state.t);
+  const InterfaceRotation rotation = find_rotation(model_, observed.body, eta);
+  include_largest(observed.peaks.rotation, rotation.own, state.t);
+  include_largest(observed.peaks.relative_rotation, rotation.relative, state.t);
   observed.peaks.modes = observed.peaks.modes.cwiseMax(eta.cwiseAbs());
   if (!body.clamped) include_slip(body, eta, state, observed);
 }
@@ -316,8 +316,8 @@ std::vector<BodyPeaks> LevelObserver::find_peaks() const {
     peaks.deformation = observed.deformation.peak();
     peaks.deformation.value *= factor;
     peaks.modes *= factor;
-    peaks.turn.value *= factor;
-    peaks.relative_turn.value *= factor;
+    peaks.rotation.value *= factor;
+    peaks.relative_rotation.value *= factor;
     peaks.is_held = observed.axial.is_held();
     peaks.frequency = observed.axial.frequency();
     peaks.stretch = peaks.oscillation.cwiseProduct(observed.axial.stretch());
@@ -347,10 +347,10 @@ void LevelObserver::exchange_memory(Archive& archive, Observed& observed) {
           observed.last_slip, observed.slipped);
   BodyPeaks& peaks = observed.peaks;
   archive(peaks.angle, peaks.Omega_B, peaks.turned_aside, peaks.oscillation,
-          peaks.modes, peaks.axial_time, peaks.strain_time, observed.last_share,
-          observed.last_strain);
+          peaks.modes, peaks.axial_time, peaks.strain_time,
+          observed.last_fraction, observed.last_strain);
   for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.strain,
-                     &peaks.turn, &peaks.relative_turn}) {
+                     &peaks.rotation, &peaks.relative_rotation}) {
     archive(peak->value, peak->time);
   }
   std::size_t points = observed.track.size();

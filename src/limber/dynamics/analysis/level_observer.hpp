@@ -14,7 +14,7 @@
 
 namespace limber::dynamics {
 
-/// One instant in the plane of the decision boundary.
+/// One time in the plane of the decision boundary.
 struct RotationPoint {
   double alpha = 0.0;  ///< [rad/s^2]
   double Omega = 0.0;  ///< [rad/s]
@@ -53,7 +53,7 @@ struct BodyPeaks {
   /// From AxialLoad: whether a joint holds the body, and its lowest frequency.
   bool is_held = false;
   double frequency = 0.0;  ///< [rad/s]
-  /// Integral of the share's magnitude [s].
+  /// Integral of the fraction's magnitude [s].
   double axial_time = 0.0;
   Peak strain;               ///< magnitude of the mean along the body [-]
   double strain_time = 0.0;  ///< its integral [s]
@@ -62,8 +62,8 @@ struct BodyPeaks {
   VectorX stretch;
   /// Largest rotations of interfaces, relative to the body's mean axes and to
   /// one another [rad].
-  Peak turn;
-  Peak relative_turn;
+  Peak rotation;
+  Peak relative_rotation;
 };
 
 /// Observes a motion and estimates, for each flexible body, the response of its
@@ -115,7 +115,7 @@ class LevelObserver {
     PeakDisplacement total;
     PeakDisplacement deformation;
     AxialLoad axial;
-    double last_share = 0.0;       ///< of the buckling load [-]
+    double last_fraction = 0.0;    ///< of the buckling load [-]
     double last_strain = 0.0;      ///< magnitude of the mean strain [-]
     bool is_observed = false;      ///< source computes its modes
     bool misses_inertial = false;  ///< but without inertial forces on them

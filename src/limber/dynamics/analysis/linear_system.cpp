@@ -152,11 +152,11 @@ void check_apart(const SystemModel& model, const SystemState& state) {
     if (pair.law->touching() == nullptr) continue;
     for (const joints::PairPoint& point : terms.pairs.responses[i].points()) {
       if (point.force_W.isZero(0.0) && point.stiffness.isZero(0.0)) continue;
-      throw InputError(fmt::format(
-          "{} and {} touch at t = {:g} s: a contact that opens, slips or rolls "
-          "has no linear model. Take a time at which they are apart, or join "
-          "them by a coupler",
-          name(pair.body_A), name(pair.body_B), state.t));
+      throw InputError(
+          fmt::format("{} and {} are in contact at t = {:g} s: a contact that "
+                      "opens, slips or rolls has no linear model. Choose a "
+                      "time at which they are apart, or join them by a coupler",
+                      name(pair.body_A), name(pair.body_B), state.t));
     }
   }
 }

@@ -65,7 +65,7 @@ Orbit make_orbit(const SystemModel& model, const SystemState& state,
                  const MatrixX& Q) {
   const SmallMotion& motion = c.motion;
   const Vector3 e_W = spin_W.normalized();
-  const Matrix3 turn = skew(c.axes.R.transpose() * e_W);
+  const Matrix3 rotation = skew(c.axes.R.transpose() * e_W);
   MatrixX around = MatrixX::Zero(motion.size(), motion.size());
   MatrixX all = around;
   for (const BodyIndex of : motion.bodies) {
@@ -74,8 +74,8 @@ Orbit make_orbit(const SystemModel& model, const SystemState& state,
     const Index p = motion.places[b];
     if (p >= 0) {
       const double inertia = body.J0.trace() / 3.0;
-      around.block<3, 3>(p, p) = -body.mass * turn;
-      around.block<3, 3>(p + 3, p + 3) = -inertia * turn;
+      around.block<3, 3>(p, p) = -body.mass * rotation;
+      around.block<3, 3>(p + 3, p + 3) = -inertia * rotation;
       all.block<3, 3>(p, p).diagonal().setConstant(body.mass);
       all.block<3, 3>(p + 3, p + 3).diagonal().setConstant(inertia);
     }
@@ -142,10 +142,10 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   const FirstOrder first(c.motion, c.basis);
   if (first.A.rows() == 0) return;
   const Vector3 spin = find_fastest_spin(state, c.motion.bodies);
-  const bool turns = !spin.isZero(0.0);
+  const bool rotates = !spin.isZero(0.0);
   const Index elements = c.motion.relaxation_rates().size();
   const auto eigen =
-      dense::find_general_eigenpairs(first.A, turns || elements > 0);
+      dense::find_general_eigenpairs(first.A, rotates || elements > 0);
   const auto& values = eigen.values;
   const double least = std::max(kNothing * values.cwiseAbs().maxCoeff(),
                                 kOfTheSpin * spin.norm());
@@ -159,7 +159,8 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
     }
     if (std::abs(values[i]) <= least) {
       if (coasting-- <= 0) modes.emplace_back();
-    } else if (values[i].imag() == 0.0 || (!turns && values[i].imag() > 0.0)) {
+    } else if (values[i].imag() == 0.0 ||
+               (!rotates && values[i].imag() > 0.0)) {
       modes.push_back(make_mode(values[i]));
     } else if (values[i].imag() > 0.0) {
       around.push_back(make_mode(values[i]));

@@ -17,11 +17,11 @@ using Complex = std::complex<double>;
 // Exchanges the eigenvalues k and k + 1.
 void exchange(SchurForm& form, Index k) {
   Eigen::MatrixXcd& T = form.T;
-  Eigen::JacobiRotation<Complex> turn;
-  turn.makeGivens(T(k, k + 1), T(k + 1, k + 1) - T(k, k));
-  T.applyOnTheLeft(k, k + 1, turn.adjoint());
-  T.applyOnTheRight(k, k + 1, turn);
-  form.U.applyOnTheRight(k, k + 1, turn);
+  Eigen::JacobiRotation<Complex> rotation;
+  rotation.makeGivens(T(k, k + 1), T(k + 1, k + 1) - T(k, k));
+  T.applyOnTheLeft(k, k + 1, rotation.adjoint());
+  T.applyOnTheRight(k, k + 1, rotation);
+  form.U.applyOnTheRight(k, k + 1, rotation);
   T(k + 1, k) = 0.0;
 }
 

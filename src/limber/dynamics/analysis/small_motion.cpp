@@ -293,9 +293,9 @@ void check_levels(const SystemModel& model) {
   for (const FullModel& full : model.full_bodies) {
     throw InputError(fmt::format(
         "body '{}' is at level full, with {} coordinates of nodes: small "
-        "motion has dense matrices, which are made of reduced bodies alone. "
-        "Take --fidelity coupled, with as many eigenmodes as the frequencies "
-        "of interest need",
+        "motion has dense matrices, which exist only for reduced bodies. Use "
+        "--fidelity coupled, with as many eigenmodes as the frequencies of "
+        "interest need",
         model.bodies[static_cast<std::size_t>(full.body)].name, full.dofs()));
   }
 }

@@ -125,15 +125,15 @@ VectorX StaticNewton::apply(const SystemState& state,
                             const VectorX& direction) {
   const double length = lengths_.measure(direction);
   if (!(length > 0.0)) return VectorX::Zero(direction.size());
-  const double share = kProbe / length;
+  const double fraction = kProbe / length;
   matrix_.find_wrench_changes(terms_, direction, changes_);
-  set_applied(wrenches_ + share * changes_, probed_);
+  set_applied(wrenches_ + fraction * changes_, probed_);
   SystemState near = state;
-  displace(model_, direction, share, near);
+  displace(model_, direction, fraction, near);
   calc_terms(model_, near, Side::right, probed_, WrenchSource::iterate);
   VectorX changed = VectorX::Zero(direction.size());
   calc_residual(model_, no_motion_, probed_, changed);
-  return (changed - base_) / share;
+  return (changed - base_) / fraction;
 }
 
 void StaticNewton::factor(const SystemState& state) {
@@ -191,11 +191,11 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
     if (i > 0 && (forces.array() <= kLeft * first.array()).all()) return true;
     if (!correct(state, right, tolerance)) return false;
     const double left = lengths_.measure(correction_);
-    const double share = std::min(1.0, kLongestCorrection / left);
+    const double fraction = std::min(1.0, kLongestCorrection / left);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
-    wrenches_ += share * (laws_ - wrenches_ + changes_);
-    displace(model_, correction_, share, state);
-    if (share == 1.0 && left <= settings.tolerance) return true;
+    wrenches_ += fraction * (laws_ - wrenches_ + changes_);
+    displace(model_, correction_, fraction, state);
+    if (fraction == 1.0 && left <= settings.tolerance) return true;
     // Round-off: corrections no longer decrease.
     constexpr double kFineLength = 1e-9;
     if (i > 0 && left < kFineLength && left > 0.5 * last) return true;

@@ -181,16 +181,16 @@ Imbalance find_imbalance(const SystemModel& model, const SystemState& state,
 SystemState advance_steadily(const SystemModel& model, const SystemState& state,
                              const TurningAxes& axes, double time) {
   const std::vector<Vector3> drifts = find_drifts(model, state);
-  const Vector3 turn = time * axes.w_W;
-  const Matrix3 R = exp_rotation(turn);
+  const Vector3 rotation = time * axes.w_W;
+  const Matrix3 R = exp_rotation(rotation);
   SystemState later = state;
   for (std::size_t b = 0; b < later.bodies.size(); ++b) {
     BodyState& body = later.bodies[b];
     const Vector3 v = body.v_WB_W - drifts[b];
     const Vector3 w = body.quat_WB * body.w_WB_B;
-    body.p_WB += time * (drifts[b] + left_jacobian(turn) * v);
+    body.p_WB += time * (drifts[b] + left_jacobian(rotation) * v);
     body.v_WB_W = drifts[b] + R * v;
-    const Quaternion q = exp_quaternion(turn) *
+    const Quaternion q = exp_quaternion(rotation) *
                          exp_quaternion(time * (w - axes.w_W)) * body.quat_WB;
     body.quat_WB = q.normalized();
     body.w_WB_B = body.quat_WB.conjugate() * (R * w);

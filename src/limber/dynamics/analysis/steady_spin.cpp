@@ -55,14 +55,14 @@ class Spin {
   SystemState solve(SystemState state) {
     double last = 0.0;
     for (int i = 0; i < kIterations; ++i) {
-      turn(state);
+      rotate(state);
       const VectorX correction = correct(state);
       const double length = lengths_.measure(correction);
       if (!std::isfinite(length)) break;
       displace(model_, correction, std::min(1.0, kLongest / length), state);
       const bool is_round_off = length < kFine && length > 0.5 * last;
       if (length <= kTolerance || (i > 0 && is_round_off)) {
-        turn(state);
+        rotate(state);
         return state;
       }
       last = length;
@@ -76,15 +76,15 @@ class Spin {
  private:
   void check_model() const {
     if (!model_.pairs.empty()) {
-      throw InputError(fmt::format(
-          "pair '{}': steady rotations are not found with pairs yet",
-          model_.pairs[0].name));
+      throw InputError(
+          fmt::format("pair '{}': steady rotation with pairs is not supported",
+                      model_.pairs[0].name));
     }
     for (const FullModel& full : model_.full_bodies) {
-      throw InputError(fmt::format(
-          "body '{}': steady rotations are not found at level full; take "
-          "nonlinear",
-          model_.bodies[static_cast<std::size_t>(full.body)].name));
+      throw InputError(
+          fmt::format("body '{}': steady rotation is not supported at level "
+                      "full; use nonlinear",
+                      model_.bodies[static_cast<std::size_t>(full.body)].name));
     }
   }
 
@@ -98,11 +98,11 @@ class Spin {
       const double scale = w_.norm() * ((at.p_WB - p_0_).norm() +
                                         find_reach(model_, BodyIndex(b)));
       const double rounding = kRounding * v_0_.norm();
-      const bool turns =
+      const bool rotates =
           (at.quat_WB * at.w_WB_B - w_).norm() <= kSame * w_.norm();
       const bool follows = (at.v_WB_W - find_velocity(at.p_WB)).norm() <=
                            kSame * scale + rounding;
-      if (turns && follows && model_.bodies[b].has_rigid_motion()) continue;
+      if (rotates && follows && model_.bodies[b].has_rigid_motion()) continue;
       throw InputError(fmt::format(
           "body '{}' does not rotate with the others at ({:.6g}, {:.6g}, "
           "{:.6g}) rad/s: a moving system is in equilibrium only if all of it "
@@ -128,14 +128,14 @@ class Spin {
       }
       throw InputError(
           "a load in the world's axes across the axis of rotation: no rotation "
-          "is steady under it; take frame = \"body\"");
+          "is steady under it; use frame = \"body\"");
     }
   }
 
   // Rotation of a group about the axis, as small motion.
-  [[nodiscard]] VectorX find_turn(const SmallMotion& motion,
-                                  const SystemState& state,
-                                  const std::vector<BodyIndex>& group) const {
+  [[nodiscard]] VectorX find_rotation(
+      const SmallMotion& motion, const SystemState& state,
+      const std::vector<BodyIndex>& group) const {
     VectorX turned = VectorX::Zero(motion.size());
     const Vector3 centre = p_0_ + w_.cross(v_0_) / w_.squaredNorm();
     for (const BodyIndex b : group) {
@@ -147,13 +147,13 @@ class Spin {
   }
 
   // Rotations of groups about the axis that nothing holds, as columns. Every
-  // such angle is steady, but for dampers that do not rotate with the group and
-  // brake it, which no angle would balance.
+  // such angle is steady, except for dampers that do not rotate with the group
+  // and brake it, which no angle would balance.
   [[nodiscard]] MatrixX find_free_turns(const SmallMotion& motion,
                                         const SystemState& state) const {
     MatrixX free(motion.size(), 0);
     for (const auto& group : find_linked_groups(model_)) {
-      const VectorX turned = find_turn(motion, state, group);
+      const VectorX turned = find_rotation(motion, state, group);
       const double inertia = turned.dot(motion.M * turned);
       const double held = motion.project_stiffness(turned)(0, 0);
       if (std::abs(held) > kHeld * w_.squaredNorm() * inertia) continue;
@@ -164,7 +164,7 @@ class Spin {
   }
 
   // Velocities of the rotation.
-  void turn(SystemState& state) const {
+  void rotate(SystemState& state) const {
     state.etadot.setZero();
     for (BodyState& at : state.bodies) {
       at.v_WB_W = find_velocity(at.p_WB);

@@ -7,7 +7,7 @@
 namespace limber::dynamics {
 
 /// The steady rotation near a state: deformed so that nothing changes in axes
-/// that turn with the system, at the angular velocity of the start.
+/// that rotate with the system, at the angular velocity of the start.
 ///
 /// Equation   r(x) = M a + bias - forces = 0 at velocities v_0 + w x (p - p_0)
 ///            and accelerations w x (v - v_f), v_f that of the mass centre of a

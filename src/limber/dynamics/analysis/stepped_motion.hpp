@@ -26,7 +26,7 @@ class SteppedMotion {
   SteppedMotion(const MatrixX& A, Eigen::Index coordinates,
                 const AlphaParameters& parameters, double step);
 
-  /// What the inputs do to z, all by columns: an input may have a slope, whose
+  /// Effect of the inputs on z, by columns: an input may have a slope, whose
   /// force is its column of `by_slope`.
   struct Inputs {
     MatrixX by_value;

@@ -8,8 +8,9 @@
 #include "limber/dynamics/bodies/modal_body.hpp"
 #include "limber/dynamics/bodies/nodal_body.hpp"
 
-/// Dispatch over the kinds of bodies: other code asks a body here and nowhere
-/// which kind it is. A new kind is added to visit_body() and BodyFactor.
+/// Dispatch over the kinds of bodies: other code queries a body here and
+/// nowhere which kind it is. A new kind is added to visit_body() and
+/// BodyFactor.
 namespace limber::dynamics {
 
 static_assert(BodyKind<ModalBody>);

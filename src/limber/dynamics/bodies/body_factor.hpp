@@ -10,7 +10,7 @@
 
 namespace limber::dynamics {
 
-/// What a kind of body provides for its block D of Newton's matrix.
+/// Functions that a kind of body provides for its block D of Newton's matrix.
 template <typename Factor>
 concept FactorKind = requires(Factor& factor, const Factor& made,
                               const SystemModel& model, std::size_t body,

@@ -10,8 +10,8 @@
 #include "limber/dynamics/equations/workspace.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
-/// What a kind of body provides (body.hpp); a kind that lacks a function does
-/// not compile.
+/// Functions that a kind of body provides (body.hpp); a kind that lacks a
+/// function does not compile.
 namespace limber::dynamics {
 
 enum class UnknownKind {
@@ -26,7 +26,7 @@ struct UnknownRange {
   UnknownKind kind = UnknownKind::translation;
   Eigen::Index row = 0;   ///< the first
   Eigen::Index size = 0;  ///< number of them
-  /// What the sum of their squares is multiplied by for the body's moment of
+  /// Factor of the sum of their squares in the body's moment of
   /// mass: its mass, moment of inertia, 1, or three times its mass divided by
   /// the number of nodal unknowns [kg, kg m^2, -, kg].
   double mass = 0.0;

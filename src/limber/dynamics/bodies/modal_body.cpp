@@ -127,8 +127,9 @@ double ModalBody::find_speed(const SystemState& state,
                  std::abs(is_square ? eta[i] * etadot[i]
                                     : eta[i] * etadot[j] + eta[j] * etadot[i]);
       });
-  const double turn = rigid.w_WB_B.norm();
-  if (turn > 0.0) speed += turn * extent;  // of a plane it is infinite
+  const double angular_speed = rigid.w_WB_B.norm();
+  if (angular_speed > 0.0)
+    speed += angular_speed * extent;  // of a plane it is infinite
   return speed;
 }
 

@@ -12,11 +12,11 @@ namespace {
 bool predict_rotated_nodes(const SystemModel& model, const FullModel& full,
                            const SystemState& from, const ConstNodes& uddot,
                            double h, double s, Nodes u_H) {
-  constexpr double kLeastTurn = 0.01;  // [rad]
+  constexpr double kLeastRotation = 0.01;  // [rad]
   MeanFrame frame;
   calc_mean_frame(model, full, from, frame);
   const Vector3& w = frame.w_H;
-  if (!(h * w.norm() > kLeastTurn)) return false;
+  if (!(h * w.norm() > kLeastRotation)) return false;
   const flexbody::FullBody& mesh = *full.mesh;
   const ConstNodes u = nodes_of(full, from.u_H);
   Vector3 spin = Vector3::Zero();
@@ -32,9 +32,9 @@ bool predict_rotated_nodes(const SystemModel& model, const FullModel& full,
   const Vector3 pddot =
       mean / mesh.node_mass.sum() - w.cross(w.cross(c)) - wdot.cross(c);
   const Vector3 path = h * frame.v_H + s * h * h * pddot;
-  const Matrix3 turn =
+  const Matrix3 rotation =
       exp_quaternion(h * w + s * h * h * wdot).toRotationMatrix();
-  const Matrix3 change = turn - Matrix3::Identity();
+  const Matrix3 change = rotation - Matrix3::Identity();
   for (Eigen::Index i = 0; i < u.cols(); ++i) {
     const Vector3 r = mesh.x_B.col(i) + u.col(i) - frame.p_HB;
     u_H.col(i) = u.col(i) + path + change * r;
@@ -44,7 +44,7 @@ bool predict_rotated_nodes(const SystemModel& model, const FullModel& full,
 
 void rotate_correction(const SystemModel& model, const FullModel& full,
                        const SystemState& state, Nodes d_H) {
-  constexpr double kLeastTurn = 1e-8;  // its square is round-off [rad]
+  constexpr double kLeastRotation = 1e-8;  // its square is round-off [rad]
   MeanFrame frame;
   calc_mean_frame(model, full, state, frame);
   Vector3 spin = Vector3::Zero();
@@ -53,7 +53,7 @@ void rotate_correction(const SystemModel& model, const FullModel& full,
     spin += y_H.cross(d_H.col(i));
   }
   const Vector3 theta = frame.spread * spin;
-  if (!(theta.norm() > kLeastTurn)) return;
+  if (!(theta.norm() > kLeastRotation)) return;
   const Matrix3 rest = exp_rotation(theta) - Matrix3::Identity() - skew(theta);
   const ConstNodes u = nodes_of(full, state.u_H);
   for (Eigen::Index i = 0; i < d_H.cols(); ++i) {
@@ -67,7 +67,7 @@ bool predict_rotations(const SystemModel& model, const SystemState& from,
                        const VectorX& accelerations, const VectorX& a,
                        const NewmarkStep& step, VectorX& a_next) {
   const auto [h, lag, beta] = step;
-  bool turns = false;
+  bool rotates = false;
   for (const FullModel& full : model.full_bodies) {
     Nodes next = nodal_rows(model, full, a_next);
     if (!predict_rotated_nodes(model, full, from,
@@ -78,9 +78,9 @@ bool predict_rotations(const SystemModel& model, const SystemState& from,
     next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
             h * h * lag * nodal_rows(model, full, a);
     next /= h * h * beta;
-    turns = true;
+    rotates = true;
   }
-  return turns;
+  return rotates;
 }
 
 void rotate_corrections(const SystemModel& model, const SystemState& state,

@@ -5,7 +5,7 @@
 
 namespace limber::dynamics {
 
-/// A sampled law that is linear in what it measures.
+/// A sampled law that is linear in its measurements.
 ///
 /// Equation   x_(k+1) = F x_k + G (y_k, r_k, r'_k)
 ///            u_k     = H x_k + J (y_k, r_k, r'_k)

@@ -59,7 +59,7 @@ PidController::PidController(PidParameters parameters)
     : parameters_(std::move(parameters)) {
   check(parameters_);
   if (parameters_.filter_time > 0.0) {
-    share_ = -std::expm1(-parameters_.period / parameters_.filter_time);
+    fraction_ = -std::expm1(-parameters_.period / parameters_.filter_time);
   }
 }
 
@@ -81,10 +81,10 @@ LinearLaw PidController::linearise() const {
   const auto unit = [&](Eigen::Index i) {
     return Row(Row::Unit(n + reference + 2, i));
   };
-  const Row filtered = (1.0 - share_) * unit(0) + share_ * unit(n);
-  const Row rate = p.has_rate
-                       ? Row((1.0 - share_) * unit(1) + share_ * unit(n + 1))
-                       : Row((filtered - unit(0)) / p.period);
+  const Row filtered = (1.0 - fraction_) * unit(0) + fraction_ * unit(n);
+  const Row rate =
+      p.has_rate ? Row((1.0 - fraction_) * unit(1) + fraction_ * unit(n + 1))
+                 : Row((filtered - unit(0)) / p.period);
   const Row error = unit(n + reference) - filtered;
   const Row integral = unit(2) + p.integral * p.period * error;
   const Row u = p.proportional * error + integral +
@@ -105,7 +105,7 @@ void PidController::sample(const ControllerView& view, std::span<double> memory,
   const bool is_first = memory[kStarted] == 0.0;
   const double before = memory[kFiltered];
   const auto filter = [&](double old, double value) {
-    return is_first ? value : old + share_ * (value - old);
+    return is_first ? value : old + fraction_ * (value - old);
   };
   memory[kStarted] = 1.0;
   memory[kFiltered] = filter(before, view.measured[0]);

@@ -63,7 +63,7 @@ class PidController : public Controller {
 
  private:
   PidParameters parameters_;
-  double share_ = 1.0;  ///< of a new measurement in the filtered one
+  double fraction_ = 1.0;  ///< of a new measurement in the filtered one
 };
 
 constexpr auto fields_of(const PidParameters*) {

@@ -10,7 +10,7 @@
 
 namespace limber::dynamics {
 
-/// What follows an input: "joint 'elbow'", several separated by commas; "no
+/// The followers of an input: "joint 'elbow'", several separated by commas; "no
 /// follower".
 [[nodiscard]] std::string name_followers(const SystemModel& model, int input);
 

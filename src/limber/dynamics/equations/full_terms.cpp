@@ -7,8 +7,8 @@
 namespace limber::dynamics {
 namespace {
 
-// Damping of the deformation's share in the reduced modes: the rate of that
-// share is (M Phi)^T R^T (v less the rigid motion), linear in v, and C times it
+// Damping of the deformation's part in the reduced modes: the rate of that
+// part is (M Phi)^T R^T (v less the rigid motion), linear in v, and C times it
 // is mapped back by the transpose. So there is no net force or moment at any
 // deformation, and the power is that of the rate.
 void add_damping(const SystemModel& model, const FullModel& full,

@@ -22,7 +22,7 @@ using joints::JointCoordinates;
 using joints::JointShape;
 using joints::RelativeMotion;
 
-constexpr double kClosed = 1e-6;  // share of the size or speed; [rad]
+constexpr double kClosed = 1e-6;  // fraction of the size or speed; [rad]
 // Of velocities, relative to the largest of the bodies.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -30,18 +30,22 @@ constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// rate.
 struct Gap {
   double distance;  ///< [m]
-  double turn;      ///< [rad]
+  double rotation;  ///< [rad]
   double speed;     ///< [m/s]
   double spin;      ///< [rad/s]
 };
 
 Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
   // Every joint has a hold, of any stiffness.
-  const joints::HoldStiffness held = joint.find_hold_stiffness().value();
-  const joints::HoldGive give = joint.find_give(held, motion);
+  const joints::ConstraintStiffness held =
+      joint.find_constraint_stiffness().value();
+  const joints::ConstraintDeflection deflection =
+      joint.find_deflection(held, motion);
   const Matrix6 K = std::visit(
-      [&](const auto& hold) { return hold.evaluate(motion).stiffness; },
-      joint.hold());
+      [&](const auto& constraint) {
+        return constraint.evaluate(motion).stiffness;
+      },
+      joint.constraint());
   // Only the constrained part of a velocity stores energy.
   const auto held_part = [](const Matrix3& k, double stiffness,
                             const Vector3& v) {
@@ -49,7 +53,7 @@ Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
     return std::sqrt(std::max(v.dot(k * v), 0.0) / stiffness);
   };
   return {
-      give.distance, give.turn,
+      deflection.distance, deflection.rotation,
       held_part(K.topLeftCorner<3, 3>(), held.translational, motion.v_FM_F),
       held_part(K.bottomRightCorner<3, 3>(), held.rotational, motion.w_FM_F)};
 }
@@ -279,24 +283,24 @@ class Placing {
           !(given->second.position.empty() && given->second.velocity.empty())) {
         add(coupler.name,
             "it closes a loop, so its coordinates follow from those of the "
-            "joints before it; leave them out");
+            "preceding joints; leave them out");
       }
       const Gap gap =
           find_gap(std::get<joints::Joint>(coupler.law),
                    find_relative_motion(model_, state_, CouplerIndex(c)));
       const Scale scale = find_scale(c);
-      if (!(gap.distance <= kClosed * scale.size && gap.turn <= kClosed)) {
+      if (!(gap.distance <= kClosed * scale.size && gap.rotation <= kClosed)) {
         add(coupler.name,
             fmt::format("it closes a loop, and its frames are {:.3g} m and "
-                        "{:.3g} rad from where it holds them; give the joints "
-                        "before it coordinates that close it",
-                        gap.distance, gap.turn));
+                        "{:.3g} rad from where they must be; give the "
+                        "preceding joints coordinates that close it",
+                        gap.distance, gap.rotation));
       } else if (!(gap.speed <= kClosed * scale.speed + scale.rounding &&
                    gap.spin <= kClosed * scale.spin)) {
         add(coupler.name,
-            fmt::format("it closes a loop, and its frames leave where it holds "
-                        "them at {:.3g} m/s and {:.3g} rad/s; give the joints "
-                        "before it rates that keep it closed",
+            fmt::format("it closes a loop, and its frames separate "
+                        "at {:.3g} m/s and {:.3g} rad/s; give the "
+                        "preceding joints rates that keep it closed",
                         gap.speed, gap.spin));
       }
     }

@@ -42,10 +42,10 @@ double find_maxwell_loss(const BodyModel& body, const VectorX& all) {
 }
 
 void stretch_maxwell(const SystemModel& model, const VectorX& change,
-                     double share, VectorX& all) {
+                     double fraction, VectorX& all) {
   for (const BodyModel& body : model.bodies) {
     for (Eigen::Index j = 0; j < body.maxwell.size(); ++j) {
-      maxwell_of(body, all).col(j) += share * mode_rows(body, change);
+      maxwell_of(body, all).col(j) += fraction * mode_rows(body, change);
     }
   }
 }

@@ -31,8 +31,9 @@ void add_maxwell_force(const BodyModel& body, const VectorX& all,
 [[nodiscard]] double find_maxwell_loss(const BodyModel& body,
                                        const VectorX& all);
 
-/// Stretches all elements of all bodies by `share` times a change of the modes.
+/// Stretches all elements of all bodies by `fraction` times a change of the
+/// modes.
 void stretch_maxwell(const SystemModel& model, const VectorX& change,
-                     double share, VectorX& all);
+                     double fraction, VectorX& all);
 
 }  // namespace limber::dynamics

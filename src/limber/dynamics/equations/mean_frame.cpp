@@ -51,11 +51,12 @@ void calc_mean_frame(const SystemModel& model, const FullModel& full,
 void add_mean_wrench(const flexbody::FullBody& mesh, const MeanFrame& frame,
                      const Vector3& force_H, const Vector3& moment_H,
                      Eigen::Ref<Matrix3X> nodal) {
-  const Vector3 share = force_H / mesh.node_mass.sum();
-  const Vector3 turn_B = frame.R_HB.transpose() * (frame.spread * moment_H);
+  const Vector3 fraction = force_H / mesh.node_mass.sum();
+  const Vector3 rotation_B = frame.R_HB.transpose() * (frame.spread * moment_H);
   for (Eigen::Index i = 0; i < nodal.cols(); ++i) {
     const Vector3 y = mesh.first_moment.col(i);
-    nodal.col(i) += mesh.node_mass[i] * share + frame.R_HB * turn_B.cross(y);
+    nodal.col(i) +=
+        mesh.node_mass[i] * fraction + frame.R_HB * rotation_B.cross(y);
   }
 }
 
@@ -63,10 +64,10 @@ void calc_deformation(const FullModel& full, const MeanFrame& frame,
                       const ConstNodes& u_H, Eigen::Ref<Matrix3X> u_B) {
   const Matrix3X& x = full.mesh->x_B;
   // R^T (x + u - p) - x = R^T (u - p - (R - I) x), without cancellation.
-  const Matrix3 turn = frame.R_HB - Matrix3::Identity();
+  const Matrix3 rotation = frame.R_HB - Matrix3::Identity();
   const Matrix3 R_BH = frame.R_HB.transpose();
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    const Vector3 u = u_H.col(i) - frame.p_HB - turn * x.col(i);
+    const Vector3 u = u_H.col(i) - frame.p_HB - rotation * x.col(i);
     u_B.col(i) = R_BH * u;
   }
 }

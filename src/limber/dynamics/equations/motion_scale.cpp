@@ -96,10 +96,10 @@ MotionScale::Largest MotionScale::measure_distance(const SystemState& a,
     const Body& body = bodies_[i];
     double squared = 0.0;
     if (body.moves) {
-      const Quaternion turn =
+      const Quaternion rotation =
           a.bodies[i].quat_WB.conjugate() * b.bodies[i].quat_WB;
       const double angle =
-          2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+          2.0 * std::atan2(rotation.vec().norm(), std::abs(rotation.w()));
       squared += (b.bodies[i].p_WB - a.bodies[i].p_WB).squaredNorm() +
                  body.reach * body.reach * angle * angle;
     }

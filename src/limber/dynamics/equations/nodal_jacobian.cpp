@@ -34,16 +34,16 @@ void calc_nodal_jacobian(const NodalFrame& frame,
   for (std::size_t i = 0; i < frame.turning.size(); ++i) {
     const Vector3 y_H =
         motion.R_HB * frame.y_B.col(static_cast<Eigen::Index>(i));
-    const Matrix3 turn = motion.spread * skew(y_H);
-    G.block<3, 3>(0, 3 * frame.turning[i]) -= R_arm * turn;
-    G.block<3, 3>(3, 3 * frame.turning[i]) = R_AH * turn;
+    const Matrix3 rotation = motion.spread * skew(y_H);
+    G.block<3, 3>(0, 3 * frame.turning[i]) -= R_arm * rotation;
+    G.block<3, 3>(3, 3 * frame.turning[i]) = R_AH * rotation;
   }
   if (!frame.is_line()) return;
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
-    const Matrix3 turn =
+    const Matrix3 rotation =
         frame.lever[static_cast<Eigen::Index>(i)] * motion.line_spread;
-    G.block<3, 3>(0, 3 * frame.nodes[i]) -= R_arm * turn;
-    G.block<3, 3>(3, 3 * frame.nodes[i]) += R_AH * turn;
+    G.block<3, 3>(0, 3 * frame.nodes[i]) -= R_arm * rotation;
+    G.block<3, 3>(3, 3 * frame.nodes[i]) += R_AH * rotation;
   }
 }
 

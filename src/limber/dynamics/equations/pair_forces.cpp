@@ -97,9 +97,9 @@ template <typename Field>
 void add_to_nodes(const joints::PairPlace& place, const Matrix3& R_HB,
                   const Vector3& force_B, Field&& force_H) {
   for (Eigen::Index n = 0; n < force_H.cols(); ++n) {
-    const Vector3 share =
+    const Vector3 fraction =
         place.Phi_B.middleCols<3>(3 * n).transpose() * force_B;
-    force_H.col(n) += R_HB * share;
+    force_H.col(n) += R_HB * fraction;
   }
 }
 

@@ -25,7 +25,8 @@ void exchange(Archive& archive, Peak& peak);
 /// Peak of a magnitude sampled at the ends of steps, or closer: of the parabola
 /// through the largest value and its neighbours.
 ///
-/// Limits     misses what the steps do not resolve. The refinement adds at
+/// Limits     misses motion that the steps do not resolve. The refinement adds
+/// at
 ///            most a quarter of the range of the three values, if their times
 ///            are equidistant.
 class RefinedPeak {

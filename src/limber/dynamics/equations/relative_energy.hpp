@@ -7,7 +7,7 @@
 
 namespace limber::dynamics {
 
-/// Bodies that something acts between, each once; kWorld is one like others.
+/// Bodies between which something acts, each once; kWorld is one like others.
 using JoinedBodies = std::vector<BodyIndex>;
 [[nodiscard]] JoinedBodies find_joined_bodies(const SystemModel& model,
                                               const Coupler& coupler);
@@ -15,9 +15,9 @@ using JoinedBodies = std::vector<BodyIndex>;
                                               const Transmission& transmission);
 [[nodiscard]] JoinedBodies find_joined_bodies(const Pair& pair);
 
-/// Kinetic energy of the motion of bodies relative to each other: what forces
-/// between them can take [J]. A common translation or rotation, and other
-/// bodies, do not change it.
+/// Kinetic energy of the motion of bodies relative to each other: the largest
+/// energy that forces between them can absorb [J]. A common translation or
+/// rotation, and other bodies, do not change it.
 ///
 /// Equation   min over r of sum_b m |v_b - v_r - w_r x (p_b - p_r)|^2 / 2
 ///            + (w_b - w_r)' J (w_b - w_r) / 2 + |etadot_b|^2 / 2,

@@ -30,8 +30,8 @@ struct AlphaParameters {
   return p;
 }
 
-/// The same with what becomes of motion that steps do not resolve: calmed by a
-/// spectral radius of 1/2 at most.
+/// The same with the treatment of motion that steps do not resolve: damped by a
+/// spectral radius of at most 1/2.
 [[nodiscard]] inline AlphaParameters find_alpha_parameters(
     double rho_inf, UnresolvedMotion motion) {
   if (motion == UnresolvedMotion::ended) return {};

@@ -78,10 +78,10 @@ double DamperWork::find_correction(const Link& first, const Link& last,
                                    double h) {
   if (first.force.isZero(0.0) && last.force.isZero(0.0)) return 0.0;
   if (!first.is_linear() || !last.is_linear()) return 0.0;
-  const Matrix3 turn = last.R * first.R.transpose();
-  if (!(turn.trace() > 1.0)) return 0.0;
+  const Matrix3 rotation = last.R * first.R.transpose();
+  if (!(rotation.trace() > 1.0)) return 0.0;
   Vector6 path;
-  path << last.p - first.p, log_rotation(turn);
+  path << last.p - first.p, log_rotation(rotation);
   const double by_path = 0.5 * (first.force + last.force).dot(path);
   const double by_power =
       0.5 * h *

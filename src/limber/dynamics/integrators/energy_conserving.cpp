@@ -61,13 +61,13 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       elastic_(VectorX::Zero(model.modal_count)),
       middle_(make_state(model)),
       next_(make_state(model)),
-      turns_(make_unknowns(model)),
+      rotations_(make_unknowns(model)),
       unresolved_(model, settings.damps_unresolved),
       change_(VectorX::Zero(model.modal_count)),
-      residual_(turns_),
-      x_(turns_),
-      step_(turns_),
-      courses_{Course{turns_, 0.0}, Course{turns_, 0.0}},
+      residual_(rotations_),
+      x_(rotations_),
+      step_(rotations_),
+      courses_{Course{rotations_, 0.0}, Course{rotations_, 0.0}},
       left_(make_state(model)),
       progress_(model) {
   LIMBER_EXPECT(model.nodal_count == 0);
@@ -146,7 +146,7 @@ void EnergyConserving::advance(const SystemState& from, double h, double end) {
     BodyState& body = next_.bodies[b];
     body = old;
     if (!model_.bodies[b].has_rigid_motion()) continue;
-    rotation_rows(model_.bodies[b], turns_) = h * mean.w_WB_B;
+    rotation_rows(model_.bodies[b], rotations_) = h * mean.w_WB_B;
     const Vector3 half = 0.5 * h * mean.w_WB_B;
     body.p_WB = old.p_WB + h * mean.v_WB_W;
     body.quat_WB = old.quat_WB * Quaternion(1.0, half.x(), half.y(), half.z());
@@ -240,22 +240,23 @@ void EnergyConserving::factor(const SystemState& from) {
         mean_.bodies[b].stiffness);
     add_geometric_stiffness(model_, b, mean_, mean_.bodies[b].stiffness);
   }
-  matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
+  matrix_.factor(model_, middle_, mean_, rotations_, coefficients_, false,
+                 &end_);
 }
 
 // Rotations by Cayley's vector, in which they add up: the rotation itself is
 // almost constant when that vector diverges.
 void EnergyConserving::turn_increments() {
   for (const BodyModel& body : model_.bodies) {
-    const Vector3 turn = rotation_rows(body, turns_);
+    const Vector3 rotation = rotation_rows(body, rotations_);
     const Vector3 x = rotation_rows(body, x_);
-    rotation_rows(body, x_) = cayley_jacobian_inverse(turn) * x;
+    rotation_rows(body, x_) = cayley_jacobian_inverse(rotation) * x;
   }
 }
 
-void EnergyConserving::apply_increments(double h, double share) {
-  x_ *= share;
-  add_to_applied(matrix_.wrench_increments(), mean_, share);
+void EnergyConserving::apply_increments(double h, double fraction) {
+  x_ *= fraction;
+  add_to_applied(matrix_.wrench_increments(), mean_, fraction);
   get_velocities(model_, middle_, step_);
   step_ += x_ / h;
   set_velocities(model_, step_, middle_);
@@ -354,7 +355,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     ++result.iterations;
     if (!progress_.is_finite()) fail(end, "the motion is no longer finite");
     const bool is_damped = progress_.reverses_last();
-    apply_increments(h, is_damped ? kReversedShare : 1.0);
+    apply_increments(h, is_damped ? kReversedFraction : 1.0);
     advance(state, h, end);
     set_motion(h);
     progress_.measure_motion(next_, mean_, step_);

@@ -77,7 +77,7 @@ class EnergyConserving final : public Integrator {
   void factor(const SystemState& from);
   void add_losses(const SystemState& from, double h);
   void turn_increments();
-  void apply_increments(double h, double share);
+  void apply_increments(double h, double fraction);
   void set_motion(double h);
   [[nodiscard]] double find_noise(const GroupProgress& group) const;
   void judge();
@@ -102,7 +102,7 @@ class EnergyConserving final : public Integrator {
   VectorX elastic_;     // of modes that elasticity couples: at the begin, e_k
   SystemState middle_;  // velocities and eta; its positions are not used
   SystemState next_;
-  VectorX turns_;  // rows of rotations: Cayley's vectors of the step
+  VectorX rotations_;  // rows of rotations: Cayley's vectors of the step
   UnresolvedModes unresolved_;
   VectorX change_;  // of the momenta of modes over the step
   VectorX residual_;

@@ -66,7 +66,8 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
             Vector6::Zero()) {
   if (settings.estimates_error) scale_.emplace(model);
   const bool conserves = !settings.implicit_euler && settings.rho_inf == 1.0;
-  if (conserves && settings.tolerance == 0.0) settings_.tolerance = kLeastShare;
+  if (conserves && settings.tolerance == 0.0)
+    settings_.tolerance = kLeastFraction;
 }
 
 bool GeneralizedAlpha::damp(UnresolvedMotion motion) {
@@ -103,8 +104,8 @@ void GeneralizedAlpha::fit_memory(double h) {
   const double ratio = memory_step_ > 0.0 ? h / memory_step_ : 1.0;
   memory_step_ = h;
   if (std::abs(ratio - 1.0) <= kSame) return;
-  const double share = ratio <= kMostGrowth ? ratio : 0.0;
-  a_ = vdot_ + share * (a_ - vdot_);
+  const double fraction = ratio <= kMostGrowth ? ratio : 0.0;
+  a_ = vdot_ + fraction * (a_ - vdot_);
 }
 
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
@@ -219,9 +220,9 @@ void GeneralizedAlpha::apply_increments(double h, double taken) {
   add_to_applied(matrix_.wrench_increments(), terms_, taken);
   rotate_corrections(model_, next_, x_);
   for (const BodyModel& body : model_.bodies) {
-    const Vector3 turn = rotation_rows(body, motion_);
+    const Vector3 rotation = rotation_rows(body, motion_);
     const Vector3 x = rotation_rows(body, x_);
-    rotation_rows(body, x_) = right_jacobian_inverse(turn) * x;
+    rotation_rows(body, x_) = right_jacobian_inverse(rotation) * x;
   }
   a_next_ += 1.0 / (p_.beta * h * h) * x_;
 }
@@ -248,12 +249,12 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   nodal_rows(model_, a_next_) =
       (nodal_rows(model_, vdot_) - p_.am * nodal_rows(model_, a_)) /
       (1.0 - p_.am);
-  const bool turns =
+  const bool rotates =
       predict_rotations(model_, from, vdot_, a_, {h, p_.lag, p_.beta}, a_next_);
   get_velocities(model_, from, v_);
   copy_step_constants(from, next_);
   advance(from, h, end);
-  return turns;
+  return rotates;
 }
 
 // Wrenches change as over the last step, as the predicted accelerations do:
@@ -314,12 +315,12 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
                                 StepResult& result) {
   bool exactly = corrections != Corrections::by_factors;
   const bool has_trend = trend_step_ > 0.0 && model_.nodal_count == 0;
-  const bool turns = predict(from, h, end);
+  const bool rotates = predict(from, h, end);
   progress_.start(next_, motion_);
   course_.clear();
   bool knows_noise = false;
   // Factors of an unreduced body are in its axes, and cheap to rotate.
-  bool needs_factors = !keeps || turns;
+  bool needs_factors = !keeps || rotates;
   int slow_corrections = 0;  // with fresh factors
   int growing = 0;           // corrections in a row
   for (int iteration = 1;; ++iteration) {
@@ -339,7 +340,7 @@ void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     }
     const bool halves =
         corrections == Corrections::exact_halved && progress_.reverses_last();
-    apply_increments(h, halves ? kReversedShare : 1.0);
+    apply_increments(h, halves ? kReversedFraction : 1.0);
     advance(from, h, end);
     progress_.measure_motion(next_, terms_, motion_);
     if (halves && iteration < settings_.max_iterations) continue;

@@ -8,9 +8,9 @@
 
 namespace limber::dynamics {
 
-/// What becomes of motion that steps do not resolve.
+/// Treatment of motion that steps do not resolve.
 enum class UnresolvedMotion {
-  kept,       ///< damped as the scheme is asked to
+  kept,       ///< damped as requested of the scheme
   conserved,  ///< not damped, for impacts that steps resolve
   calmed,     ///< halved by each step at least: of stiff contacts at rest
   ended,      ///< as by implicit Euler, for impacts much shorter than a step

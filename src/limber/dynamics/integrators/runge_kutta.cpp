@@ -142,11 +142,11 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   calc_slope(state, Side::right, slopes_[0]);
   flows_.clear();
   add_powers(terms_, h / 6.0, flows_);
-  const std::array<double, 3> shares = {0.5, 0.5, 1.0};
+  const std::array<double, 3> fractions = {0.5, 0.5, 1.0};
   for (std::size_t s = 0; s < 3; ++s) {
     const bool at_end = s == 2;
-    displace(state, slopes_[s], shares[s] * h,
-             at_end ? end : state.t + shares[s] * h);
+    displace(state, slopes_[s], fractions[s] * h,
+             at_end ? end : state.t + fractions[s] * h);
     calc_slope(stage_, at_end ? Side::left : Side::right, slopes_[s + 1]);
     add_powers(terms_, (at_end ? 1.0 : 2.0) * h / 6.0, flows_);
   }

@@ -52,16 +52,16 @@ double measure_part(const SystemModel& model, const Change& x, std::size_t b) {
   return part;
 }
 
-// Factor of a change that moves no body by more than a small share of its size,
-// large against round-off [-].
+// Factor of a change that moves no body by more than a small fraction of its
+// size, large against round-off [-].
 double find_increment(const SystemModel& model, const Change& x) {
-  constexpr double kShare = 1e-7;
+  constexpr double kFraction = 1e-7;
   double largest = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     largest = std::max(largest,
                        measure_part(model, x, b) / model.bodies[b].J0.trace());
   }
-  return kShare / std::sqrt(largest);
+  return kFraction / std::sqrt(largest);
 }
 
 constexpr double kSlow = 0.01;

@@ -40,6 +40,6 @@ namespace limber::dynamics {
                                             const SystemState& state);
 
 /// Fraction of the stable step that simulate() uses [-].
-inline constexpr double kStableShare = 0.95;
+inline constexpr double kStableFraction = 0.95;
 
 }  // namespace limber::dynamics

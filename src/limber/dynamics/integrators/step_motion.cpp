@@ -12,11 +12,11 @@ namespace {
 void calc_body(const BodyState& begin, const BodyState& middle,
                const BodyState& end, double h, BodyStep& step) {
   const Matrix3 R0 = begin.quat_WB.toRotationMatrix();
-  step.turn = h * middle.w_WB_B;
+  step.rotation = h * middle.w_WB_B;
   step.v_W = middle.v_WB_W;
   step.w_W = R0 * middle.w_WB_B;
   step.R_WB = 0.5 * (R0 + end.quat_WB.toRotationMatrix());
-  step.dual_R = R0 + R0 * skew(0.5 * step.turn);
+  step.dual_R = R0 + R0 * skew(0.5 * step.rotation);
   step.middle_R_WB = Quaternion(begin.quat_WB.coeffs() + end.quat_WB.coeffs())
                          .normalized()
                          .toRotationMatrix();
@@ -90,8 +90,8 @@ void calc_flexibility(const BodyModel& body, const Attachment& attachment,
   const Vector3 psidot =
       combine_mean(rotation_of, attachment, first, last, rates);
   // The frame's rotation in the body, h A psidot, before the body's.
-  const double both = 0.25 * h * rigid.turn.dot(A * psidot);
-  const double stretch = 1.0 + 0.25 * rigid.turn.squaredNorm();
+  const double both = 0.25 * h * rigid.rotation.dot(A * psidot);
+  const double stretch = 1.0 + 0.25 * rigid.rotation.squaredNorm();
   frame.twist = (stretch / (1.0 - both)) * (rigid.R_WB * A);
   frame.v_W += rigid.dual_R *
                combine_mean(translation_of, attachment, first, last, rates);

@@ -25,11 +25,11 @@
 namespace limber::dynamics {
 
 struct BodyStep {
-  Vector3 turn;    ///< h w_B, vector of Cayley's transform [-]
-  Vector3 v_W;     ///< [m/s]
-  Vector3 w_W;     ///< [rad/s]
-  Matrix3 R_WB;    ///< mean of both ends, not a rotation [-]
-  Matrix3 dual_R;  ///< its inverse transposed, R_0 (I + skew(turn) / 2) [-]
+  Vector3 rotation;  ///< h w_B, vector of Cayley's transform [-]
+  Vector3 v_W;       ///< [m/s]
+  Vector3 w_W;       ///< [rad/s]
+  Matrix3 R_WB;      ///< mean of both ends, not a rotation [-]
+  Matrix3 dual_R;  ///< its inverse transposed, R_0 (I + skew(rotation) / 2) [-]
   /// The rotation halfway between both ends [-].
   Matrix3 middle_R_WB;
 };

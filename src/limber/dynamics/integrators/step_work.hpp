@@ -9,8 +9,8 @@
 namespace limber::dynamics {
 
 /// Work and dissipation of a step: the trapezoidal rule applied to the powers
-/// at both ends, with the corrections of DamperWork and SuppliedWork, which go
-/// by paths, as do the means that pairs tell.
+/// at both ends, with the corrections of DamperWork and SuppliedWork, which
+/// integrate along paths, like the mean forces of pairs.
 class StepWork {
  public:
   explicit StepWork(const SystemModel& model);

@@ -11,10 +11,10 @@
 namespace limber::dynamics {
 
 /// Work over a step of drives, of forces and moments in the world's axes, of
-/// moments in a rigid body's axes and of gravity, by the path of what they act
-/// along. The trapezoidal rule of their powers is
-/// wrong by any amount where a saturated drive's command, or a body, moves back
-/// and forth within a step.
+/// moments in a rigid body's axes and of gravity, along the path of the point
+/// or axis of action. The trapezoidal rule of their powers is wrong by any
+/// amount where a saturated drive's command, or a body, moves back and forth
+/// within a step.
 ///
 /// Equation   W = (f_0 + f_1) / 2 (s_1 - s_0) + (f_1 - f_0) (s'_1 - s'_0) h /
 /// 12

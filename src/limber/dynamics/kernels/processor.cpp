@@ -25,12 +25,13 @@ Instructions find_instructions() {
   const Instructions best =
       has_avx2() ? Instructions::avx2 : Instructions::baseline;
   const char* const text = std::getenv("LIMBER_SIMD");
-  const std::string_view asked = text == nullptr ? "" : text;
-  if (asked.empty()) return best;
-  if (asked == "baseline") return Instructions::baseline;
-  if (asked == "avx2" && best == Instructions::avx2) return best;
+  const std::string_view requested = text == nullptr ? "" : text;
+  if (requested.empty()) return best;
+  if (requested == "baseline") return Instructions::baseline;
+  if (requested == "avx2" && best == Instructions::avx2) return best;
   throw InputError(fmt::format(
-      "environment variable LIMBER_SIMD is '{}'; expected 'baseline'{}", asked,
+      "environment variable LIMBER_SIMD is '{}'; expected 'baseline'{}",
+      requested,
       best == Instructions::avx2
           ? " or 'avx2'"
           : std::string_view(", as this processor has no AVX2")));

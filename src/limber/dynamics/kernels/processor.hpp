@@ -8,8 +8,9 @@ namespace limber::dynamics::kernels {
 
 enum class Instructions { baseline, avx2 };
 
-/// What this processor has, or what the environment variable LIMBER_SIMD
-/// (`baseline` or `avx2`) asks for; results have the same bits.
+/// The instructions of this processor, or those that the environment variable
+/// LIMBER_SIMD
+/// (`baseline` or `avx2`) selects; results have the same bits.
 /// @throws InputError for another value of it, and for instructions that this
 /// processor lacks.
 [[nodiscard]] Instructions find_instructions();

@@ -10,9 +10,9 @@
 
 namespace limber::dynamics {
 
-/// What became of the energy of an impact, or of a rest, from its first touch
-/// to its end: of both bodies' motion, and of their deformation without that
-/// at the contact. Neither what else moves nor a common velocity matters.
+/// Energy balance of an impact, or of a resting contact, from its beginning to
+/// its end: of both bodies' motion, and of their deformation without that at
+/// the contact. Neither what else moves nor a common velocity matters.
 ///
 /// Equation   in = stored + returned + damped + rubbed - error
 /// Limits     `returned` is that of the powers at the ends of steps. Where
@@ -29,7 +29,7 @@ struct ImpactEnergy {
   double roundoff = 0.0;  ///< of the error, at most [J]
 
   /// Error over the energy of the impact [-]; 0 if it may be round-off.
-  [[nodiscard]] double open_share() const {
+  [[nodiscard]] double unbalanced_fraction() const {
     const double all = std::max(std::abs(in), std::abs(returned));
     return std::abs(error) > roundoff && all > 0.0 ? std::abs(error) / all
                                                    : 0.0;
@@ -70,7 +70,8 @@ struct ContactRecord {
   /// Of both bodies' rigid motions along the line of the whole impulse of the
   /// normal force, without vibration [-]. None if they touch at the end, no
   /// impact brought them together, or other motion did more than that: beyond 0
-  /// to 1.5, as where a vibrating finger strikes what it hardly approaches.
+  /// to 1.5, for example where a vibrating finger strikes a body that it hardly
+  /// approaches.
   [[nodiscard]] std::optional<double> restitution() const {
     constexpr double kMost = 1.5;
     if (!has_parted || !is_impact()) return std::nullopt;

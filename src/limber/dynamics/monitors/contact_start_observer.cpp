@@ -146,7 +146,7 @@ double ContactStartObserver::find_least_advance(Observed& observed,
 
 // By conservative advancement; where that is slow, as for bodies that pass
 // closely, by parts of the motion in which neither passes through the other.
-std::optional<double> ContactStartObserver::find_touch_share(
+std::optional<double> ContactStartObserver::find_touch_fraction(
     Observed& observed, const SystemState& before, const SystemState& after) {
   const double h = after.t - before.t;
   const double speed =
@@ -164,31 +164,31 @@ std::optional<double> ContactStartObserver::find_touch_share(
   double least = clearance <= none
                      ? find_least_advance(observed, before, part_of_size)
                      : 0.0;
-  double share = 0.0;
+  double fraction = 0.0;
   for (int i = 0; i < kMostLooks && (clearance > none || least > 0.0); ++i) {
     const double sure = std::max(clearance / reach, least);
-    if (share + sure >= 1.0) return std::nullopt;
+    if (fraction + sure >= 1.0) return std::nullopt;
     if (i >= kPatience && sure < part) {
-      const double next = std::min(share + part, 1.0);
+      const double next = std::min(fraction + part, 1.0);
       interpolate(model_, before, after, next, within_);
       clearance = find_clearance(observed, within_);
       if (clearance <= 0.0) {
-        return bisect(before, after, share, next,
+        return bisect(before, after, fraction, next,
                       [&] { return find_clearance(observed, within_) > 0.0; });
       }
       if (next == 1.0) return std::nullopt;
-      share = next;
+      fraction = next;
       continue;
     }
-    share += sure;
-    interpolate(model_, before, after, share, within_);
+    fraction += sure;
+    interpolate(model_, before, after, fraction, within_);
     clearance = find_clearance(observed, within_);
     // Two bodies that have just separated are still close.
     const bool overlaps =
         clearance <= 0.0 && find_touch(observed, within_).depth > 0.0;
     if (clearance > none || overlaps) least = 0.0;
   }
-  return share;
+  return fraction;
 }
 
 // A pair that has just touched may still be apart by the round-off of its
@@ -200,9 +200,9 @@ bool ContactStartObserver::has_left(Observed& observed,
 }
 
 // The pair touches before and is apart after.
-double ContactStartObserver::find_leave_share(Observed& observed,
-                                              const SystemState& before,
-                                              const SystemState& after) {
+double ContactStartObserver::find_leave_fraction(Observed& observed,
+                                                 const SystemState& before,
+                                                 const SystemState& after) {
   return bisect(before, after, 0.0, 1.0,
                 [&] { return find_touch(observed, within_).depth > 0.0; });
 }
@@ -213,15 +213,16 @@ std::optional<ContactStartObserver::Crossing> ContactStartObserver::find_first(
   find_ways(before, after);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     Observed& observed = pairs_[i];
-    std::optional<double> share;
+    std::optional<double> fraction;
     observed.is_clear = is_clear(observed, before);
     if (observed.is_clear) continue;
     if (!observed.is_touching) {
-      share = find_touch_share(observed, before, after);
+      fraction = find_touch_fraction(observed, before, after);
     } else if (has_left(observed, after)) {
-      share = find_leave_share(observed, before, after);
+      fraction = find_leave_fraction(observed, before, after);
     }
-    if (share && (!first || *share < first->share)) first = Crossing{i, *share};
+    if (fraction && (!first || *fraction < first->fraction))
+      first = Crossing{i, *fraction};
   }
   return first;
 }
@@ -302,9 +303,9 @@ void ContactStartObserver::check_step(double h, double t) const {
     const double way = observed.rate * h;
     if (way <= kMostWay * observed.law->find_size()) continue;
     throw NumericalError(fmt::format(
-        "contact '{}' at t = {:.9g} s: both approach each other by {:.3g} m in "
-        "a step of {:.3g} s, and could pass through each other; a step of "
-        "{:.2g} s would resolve the impact",
+        "contact '{}' at t = {:.9g} s: the bodies approach each other by "
+        "{:.3g} m in a step of {:.3g} s and could pass through each other; a "
+        "step of {:.2g} s would resolve the impact",
         model_.pairs[observed.pair].name, t, way, h,
         observed.impact_duration / kStepsOfImpact));
   }

@@ -17,8 +17,8 @@
 
 namespace limber::dynamics {
 
-/// Monitors which pairs touch from step to step, and finds when they first
-/// touch and last leave each other.
+/// Monitors which pairs are in contact from step to step, and locates the
+/// beginning and the end of contact.
 ///
 /// Equation   between a step's ends positions are cubic, as for outputs between
 ///            steps. A touch is found by conservative advancement: no touch is
@@ -27,7 +27,8 @@ namespace limber::dynamics {
 ///            bodies have moved that far (TravelBound): distant pairs cost two
 ///            sums a step
 /// Source     [@mirtich1996, ch. 2]
-/// Limits     a leave and a touch within one step are not detected; between two
+/// Limits     an end and a beginning of contact within one step are not
+/// detected; between two
 ///            evaluations a body must not turn by more than half a turn
 class ContactStartObserver {
  public:
@@ -47,7 +48,7 @@ class ContactStartObserver {
 
   struct Crossing {
     std::size_t index = 0;  ///< of the pair, among those observed
-    double share = 0.0;     ///< fraction of the step, in [0, 1] [-]
+    double fraction = 0.0;  ///< fraction of the step, in [0, 1] [-]
   };
   /// Marks in `state` the pairs that do not touch: they have no points in the
   /// next step, even if it ends beyond their touch, which is then found on the
@@ -159,7 +160,7 @@ class ContactStartObserver {
   [[nodiscard]] double find_least_advance(Observed& observed,
                                           const SystemState& before,
                                           double part_of_size);
-  [[nodiscard]] std::optional<double> find_touch_share(
+  [[nodiscard]] std::optional<double> find_touch_fraction(
       Observed& observed, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Observed& observed, const SystemState& after);
   template <typename Predicate>
@@ -171,9 +172,9 @@ class ContactStartObserver {
   template <typename Predicate>
   double bisect(const SystemState& before, const SystemState& after, double low,
                 double high, const Predicate& is_early);
-  [[nodiscard]] double find_leave_share(Observed& observed,
-                                        const SystemState& before,
-                                        const SystemState& after);
+  [[nodiscard]] double find_leave_fraction(Observed& observed,
+                                           const SystemState& before,
+                                           const SystemState& after);
   [[nodiscard]] joints::PairTouch find_touch(Observed& observed,
                                              const SystemState& state);
 

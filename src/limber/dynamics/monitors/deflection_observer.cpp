@@ -46,97 +46,101 @@ DeflectionObserver::DeflectionObserver(const SystemModel& model)
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const Coupler& coupler = model.couplers[c];
-    const auto stiffness = joints::find_hold_stiffness(coupler.law);
+    const auto stiffness = joints::find_constraint_stiffness(coupler.law);
     if (!stiffness) continue;
-    Hold hold;
-    hold.coupler = c;
-    hold.stiffness = *stiffness;
+    Constraint constraint;
+    constraint.coupler = c;
+    constraint.stiffness = *stiffness;
     const double size_F = find_size(model, coupler.frame_F);
     const double size_M = find_size(model, coupler.frame_M);
-    hold.size = std::min(size_F, size_M);
+    constraint.size = std::min(size_F, size_M);
     const AttachmentIndex frame =
         size_F < size_M ? coupler.frame_F : coupler.frame_M;
     const BodyIndex body =
         model.attachments[static_cast<std::size_t>(frame)].body;
-    if (body == kWorld || !(hold.size > 0.0)) continue;
-    hold.body = static_cast<std::size_t>(body);
-    hold.group = group_of[hold.body];
-    holds_.push_back(hold);
+    if (body == kWorld || !(constraint.size > 0.0)) continue;
+    constraint.body = static_cast<std::size_t>(body);
+    constraint.group = group_of[constraint.body];
+    constraints_.push_back(constraint);
   }
 }
 
 void DeflectionObserver::include(const SystemState& state,
                                  const SystemTerms& terms) {
-  for (Hold& hold : holds_) {
-    const joints::HoldGive give =
-        joints::find_give(model_.couplers[hold.coupler].law, hold.stiffness,
-                          terms.couplers[hold.coupler].motion);
-    if (give.distance > hold.give) {
-      hold.give = give.distance;
-      hold.give_time = state.t;
+  for (Constraint& constraint : constraints_) {
+    const joints::ConstraintDeflection deflection = joints::find_deflection(
+        model_.couplers[constraint.coupler].law, constraint.stiffness,
+        terms.couplers[constraint.coupler].motion);
+    if (deflection.distance > constraint.deflection) {
+      constraint.deflection = deflection.distance;
+      constraint.deflection_time = state.t;
     }
-    if (give.turn > hold.turn) {
-      hold.turn = give.turn;
-      hold.turn_time = state.t;
+    if (deflection.rotation > constraint.rotation) {
+      constraint.rotation = deflection.rotation;
+      constraint.rotation_time = state.t;
     }
-    const double energy =
-        0.5 * hold.stiffness.translational * give.distance * give.distance +
-        0.5 * hold.stiffness.rotational * give.turn * give.turn;
-    if (energy > hold.energy) {
-      hold.energy = energy;
-      hold.elastic = 0.0;
-      for (const BodyIndex b : groups_[hold.group]) {
-        hold.elastic += find_elastic_energy(model_, static_cast<std::size_t>(b),
-                                            state, terms);
+    const double energy = 0.5 * constraint.stiffness.translational *
+                              deflection.distance * deflection.distance +
+                          0.5 * constraint.stiffness.rotational *
+                              deflection.rotation * deflection.rotation;
+    if (energy > constraint.energy) {
+      constraint.energy = energy;
+      constraint.elastic = 0.0;
+      for (const BodyIndex b : groups_[constraint.group]) {
+        constraint.elastic += find_elastic_energy(
+            model_, static_cast<std::size_t>(b), state, terms);
       }
-      hold.energy_time = state.t;
+      constraint.energy_time = state.t;
     }
   }
 }
 
-std::string DeflectionObserver::describe(const Hold& hold) const {
-  const std::string& joint = model_.couplers[hold.coupler].name;
-  const std::string& body = model_.bodies[hold.body].name;
-  if (hold.give / hold.size >= hold.turn) {
-    const double share = hold.give / hold.size;
+std::string DeflectionObserver::describe(const Constraint& constraint) const {
+  const std::string& joint = model_.couplers[constraint.coupler].name;
+  const std::string& body = model_.bodies[constraint.body].name;
+  if (constraint.deflection / constraint.size >= constraint.rotation) {
+    const double fraction = constraint.deflection / constraint.size;
     return fmt::format(
-        "joint '{}' gives way by {:.3g} m at t = {:.6g} s in constrained "
+        "joint '{}' deflects by {:.3g} m at t = {:.6g} s in constrained "
         "directions, {:.3g} % of the size of body '{}' ({:.3g} m); a "
         "translational stiffness of {:.2g} N/m in place of {:.2g} N/m would "
-        "hold it to 0.1 %",
-        joint, hold.give, hold.give_time, 100.0 * share, body, hold.size,
-        hold.stiffness.translational * share / kLargest,
-        hold.stiffness.translational);
+        "limit it to 0.1 %",
+        joint, constraint.deflection, constraint.deflection_time,
+        100.0 * fraction, body, constraint.size,
+        constraint.stiffness.translational * fraction / kLargest,
+        constraint.stiffness.translational);
   }
   return fmt::format(
-      "joint '{}' gives way by {:.3g} rad at t = {:.6g} s about constrained "
-      "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a "
-      "rotational stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would "
-      "limit this to 0.1 % of the body's size",
-      joint, hold.turn, hold.turn_time, body, hold.size, hold.turn * hold.size,
-      hold.stiffness.rotational * hold.turn / kLargest,
-      hold.stiffness.rotational);
+      "joint '{}' deflects by {:.3g} rad at t = {:.6g} s about constrained "
+      "directions, which moves body '{}' ({:.3g} m) by {:.3g} m; a rotational "
+      "stiffness of {:.2g} N m/rad in place of {:.2g} N m/rad would limit this "
+      "to 0.1 % of the body's size",
+      joint, constraint.rotation, constraint.rotation_time, body,
+      constraint.size, constraint.rotation * constraint.size,
+      constraint.stiffness.rotational * constraint.rotation / kLargest,
+      constraint.stiffness.rotational);
 }
 
-std::string DeflectionObserver::describe_share(const Hold& hold) const {
+std::string DeflectionObserver::describe_fraction(
+    const Constraint& constraint) const {
   return fmt::format(
-      "joint '{}' is soft beside the bodies: at t = {:.6g} s it stores {:.3g} "
-      "J "
-      "in its constrained directions, {:.3g} % of the elastic energy of the "
-      "bodies connected to it; {:.2g} times its stiffness would keep it at "
-      "{:g} %",
-      model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
-      100.0 * hold.share(), hold.share() / kLargestShare,
-      100.0 * kLargestShare);
+      "joint '{}' is soft relative to the bodies: at t = {:.6g} s it stores "
+      "{:.3g} J in its constrained directions, {:.3g} % of the elastic energy "
+      "of the bodies connected to it; {:.2g} times its stiffness would keep it "
+      "at {:g} %",
+      model_.couplers[constraint.coupler].name, constraint.energy_time,
+      constraint.energy, 100.0 * constraint.fraction(),
+      constraint.fraction() / kLargestFraction, 100.0 * kLargestFraction);
 }
 
-std::string DeflectionObserver::describe_shares(
-    std::vector<const Hold*> soft) const {
+std::string DeflectionObserver::describe_fractions(
+    std::vector<const Constraint*> soft) const {
   constexpr std::size_t kMost = 4;
-  std::stable_sort(soft.begin(), soft.end(), [](const Hold* a, const Hold* b) {
-    return a->share() > b->share();
-  });
-  std::string text = describe_share(*soft.front());
+  std::stable_sort(soft.begin(), soft.end(),
+                   [](const Constraint* a, const Constraint* b) {
+                     return a->fraction() > b->fraction();
+                   });
+  std::string text = describe_fraction(*soft.front());
   for (std::size_t i = 1; i < std::min(kMost, soft.size()); ++i) {
     text += fmt::format("{} '{}'", i == 1 ? "; also soft:" : ",",
                         model_.couplers[soft[i]->coupler].name);
@@ -148,46 +152,51 @@ std::string DeflectionObserver::describe_shares(
 
 std::vector<std::string> DeflectionObserver::find_warnings() const {
   std::vector<std::string> warnings;
-  std::vector<const Hold*> soft;
-  for (const Hold& hold : holds_) {
-    if (hold.largest() > kLargest) {
-      warnings.push_back(describe(hold));
-    } else if (hold.largest() > kNegligible && hold.share() > kLargestShare) {
-      soft.push_back(&hold);
+  std::vector<const Constraint*> soft;
+  for (const Constraint& constraint : constraints_) {
+    if (constraint.largest() > kLargest) {
+      warnings.push_back(describe(constraint));
+    } else if (constraint.largest() > kNegligible &&
+               constraint.fraction() > kLargestFraction) {
+      soft.push_back(&constraint);
     }
   }
-  if (!soft.empty()) warnings.push_back(describe_shares(std::move(soft)));
+  if (!soft.empty()) warnings.push_back(describe_fractions(std::move(soft)));
   return warnings;
 }
 
 void DeflectionObserver::add_negligible_energies(
     Eigen::Ref<VectorX> losses) const {
   constexpr double kTimes = 10.0;
-  for (const Hold& hold : holds_) {
-    if (hold.largest() > kNegligible) continue;
-    losses[static_cast<Eigen::Index>(hold.coupler)] += kTimes * hold.energy;
+  for (const Constraint& constraint : constraints_) {
+    if (constraint.largest() > kNegligible) continue;
+    losses[static_cast<Eigen::Index>(constraint.coupler)] +=
+        kTimes * constraint.energy;
   }
 }
 
 std::optional<std::string> DeflectionObserver::find_overpowered() const {
-  const auto worst = std::max_element(
-      holds_.begin(), holds_.end(),
-      [](const Hold& a, const Hold& b) { return a.largest() < b.largest(); });
-  if (worst == holds_.end() || worst->largest() <= kOverpowered) {
+  const auto worst =
+      std::max_element(constraints_.begin(), constraints_.end(),
+                       [](const Constraint& a, const Constraint& b) {
+                         return a.largest() < b.largest();
+                       });
+  if (worst == constraints_.end() || worst->largest() <= kOverpowered) {
     return std::nullopt;
   }
   return describe(*worst) + ": the loads are stronger than this joint";
 }
 
 void DeflectionObserver::exchange_memory(Archive& archive) {
-  for (Hold& hold : holds_) {
-    archive(hold.give, hold.turn, hold.give_time, hold.turn_time, hold.energy,
-            hold.elastic, hold.energy_time);
+  for (Constraint& constraint : constraints_) {
+    archive(constraint.deflection, constraint.rotation,
+            constraint.deflection_time, constraint.rotation_time,
+            constraint.energy, constraint.elastic, constraint.energy_time);
   }
 }
 
-std::vector<std::string> find_hold_warnings(const SystemModel& model,
-                                            const SystemState& state) {
+std::vector<std::string> find_constraint_warnings(const SystemModel& model,
+                                                  const SystemState& state) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
   DeflectionObserver observer(model);

@@ -31,13 +31,14 @@ class DeflectionObserver {
   /// The end of a step. @param terms at `state`
   void include(const SystemState& state, const SystemTerms& terms);
   /// One for each joint displaced by more than kLargest, and one for all whose
-  /// share of the elastic energy exceeds kLargestShare, the largest first.
+  /// fraction of the elastic energy exceeds kLargestFraction, the largest
+  /// first.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
   /// Of the elastic energy of all bodies that are connected to it [-].
-  static constexpr double kLargestShare = 0.01;
-  /// Smaller displacements have no share, of a body's size [-].
+  static constexpr double kLargestFraction = 0.01;
+  /// Smaller displacements have no fraction, of a body's size [-].
   static constexpr double kNegligible = 1e-6;
 
   /// Adds the energy that each joint may lose in vibration that no step
@@ -56,39 +57,42 @@ class DeflectionObserver {
   void exchange_memory(Archive& archive);
 
  private:
-  struct Hold {
+  struct Constraint {
     std::size_t coupler = 0;
     std::size_t body = 0;   // the smaller of those joined
     std::size_t group = 0;  // of the connected bodies, index of groups_
     double size = 0.0;      // [m]
-    joints::HoldStiffness stiffness;
-    double give = 0.0;         // d at its largest [m]
-    double turn = 0.0;         // theta at its largest [rad]
-    double give_time = 0.0;    // [s]
-    double turn_time = 0.0;    // [s]
-    double energy = 0.0;       // of the joint at its largest [J]
-    double elastic = 0.0;      // of the connected bodies then [J]
-    double energy_time = 0.0;  // [s]
+    joints::ConstraintStiffness stiffness;
+    double deflection = 0.0;       // d at its largest [m]
+    double rotation = 0.0;         // theta at its largest [rad]
+    double deflection_time = 0.0;  // [s]
+    double rotation_time = 0.0;    // [s]
+    double energy = 0.0;           // of the joint at its largest [J]
+    double elastic = 0.0;          // of the connected bodies then [J]
+    double energy_time = 0.0;      // [s]
     // The larger of both, relative to the body's size or in [rad].
-    [[nodiscard]] double largest() const { return std::max(give / size, turn); }
+    [[nodiscard]] double largest() const {
+      return std::max(deflection / size, rotation);
+    }
     // Of the elastic energy; none without any.
-    [[nodiscard]] double share() const {
+    [[nodiscard]] double fraction() const {
       return elastic > 0.0 ? energy / elastic : 0.0;
     }
   };
-  [[nodiscard]] std::string describe(const Hold& hold) const;
-  [[nodiscard]] std::string describe_share(const Hold& hold) const;
+  [[nodiscard]] std::string describe(const Constraint& constraint) const;
+  [[nodiscard]] std::string describe_fraction(
+      const Constraint& constraint) const;
   /// @param soft at least one
-  [[nodiscard]] std::string describe_shares(
-      std::vector<const Hold*> soft) const;
+  [[nodiscard]] std::string describe_fractions(
+      std::vector<const Constraint*> soft) const;
 
   const SystemModel& model_;
   std::vector<std::vector<BodyIndex>> groups_;
-  std::vector<Hold> holds_;
+  std::vector<Constraint> constraints_;
 };
 
 /// Warnings of DeflectionObserver at one state, such as an equilibrium.
-[[nodiscard]] std::vector<std::string> find_hold_warnings(
+[[nodiscard]] std::vector<std::string> find_constraint_warnings(
     const SystemModel& model, const SystemState& state);
 
 }  // namespace limber::dynamics

@@ -25,13 +25,13 @@ void EffortLimitObserver::pass(Limited& limited,
                                double t, std::vector<Event>& events) {
   const double span = limited.has_begun ? t - limited.time : 0.0;
   const double rise = load - limited.load;
-  const double share =
+  const double fraction =
       span > 0.0 && rise != 0.0 ? (1.0 - limited.load) / rise : 1.0;
-  const double when = t - (1.0 - share) * span;
+  const double when = t - (1.0 - fraction) * span;
   const bool is_reached = load >= 1.0;
   if (is_reached && limited.events == 0) {
     limited.first_time = when;
-    limited.first_z = motion.z - (1.0 - share) * span * motion.rate;
+    limited.first_z = motion.z - (1.0 - fraction) * span * motion.rate;
   }
   limited.time_at += is_reached ? t - when : when - limited.time;
   if (++limited.events > kMostEvents) return;

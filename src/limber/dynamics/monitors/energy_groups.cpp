@@ -24,7 +24,7 @@ std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 void exchange(Archive& archive, EnergyGroups::Group& group) {
   archive(group.is_held, group.mass, group.velocity, group.work,
-          group.throughput, group.drift, group.worst, group.share);
+          group.throughput, group.drift, group.worst, group.place_error);
   group.observer.exchange_memory(archive);
 }
 
@@ -115,7 +115,7 @@ void EnergyGroups::meet(Group& group, const Group& other) const {
   if (std::abs(other.drift.value) > std::abs(group.drift.value)) {
     group.drift = other.drift;
     group.worst = other.worst;
-    group.share = other.share;
+    group.place_error = other.place_error;
   }
 }
 
@@ -205,22 +205,22 @@ void EnergyGroups::include(const std::vector<EnergyAccount>& accounts,
     group.observer.add(sums_[i].work - group.work);
     group.work = sums_[i].work;
     include_extremes(i);
-    if (group.drift.include(sums_[i].error, t)) note_share(i, accounts);
+    if (group.drift.include(sums_[i].error, t)) note_place(i, accounts);
     drift += sums_[i].error;
   }
   drift_.include(drift, t);
 }
 
-void EnergyGroups::note_share(std::size_t root,
+void EnergyGroups::note_place(std::size_t root,
                               const std::vector<EnergyAccount>& accounts) {
   Group& group = groups_[root];
   const double sign = group.drift.value < 0.0 ? -1.0 : 1.0;
-  group.share = 0.0;
+  group.place_error = 0.0;
   for (std::size_t i = 0; i < accounts.size(); ++i) {
     if (group_of(i) != root) continue;
     const double error = accounts[i].error_in(group.velocity);
-    if (!(sign * error > sign * group.share)) continue;
-    group.share = error;
+    if (!(sign * error > sign * group.place_error)) continue;
+    group.place_error = error;
     group.worst = static_cast<Eigen::Index>(i);
   }
 }
@@ -270,8 +270,8 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
     EnergyDrift& drift = drifts[i];
     drift.drift = group.drift;
     drift.throughput = group.throughput;
-    drift.share = group.share;
-    if (group.share == 0.0) continue;
+    drift.place_error = group.place_error;
+    if (group.place_error == 0.0) continue;
     drift.place = name_energy_row(model_, group.worst);
     drift.is_one_way = group.worst < rows_.couplers &&
                        is_one_way(model_.bodies[at(group.worst)]);

@@ -16,7 +16,7 @@ namespace limber::dynamics {
 inline constexpr double kLeastGrowth = 1.01;
 
 /// Energies judged by groups of bodies that are connected to each other, each
-/// beside what is at stake in it: neither what else moves in a scene nor a
+/// relative to its own throughput: neither what else moves in a scene nor a
 /// common velocity changes a verdict.
 ///
 /// Equation   in the frame of a group that is not connected to the world, with
@@ -44,7 +44,7 @@ class EnergyGroups {
   /// Whether include() would find a new extreme of a drift that matters.
   [[nodiscard]] bool has_new_drift() const;
 
-  /// What a group stores and what its start and loads account for [J].
+  /// Stored energy of a group and the energy of its start and loads [J].
   struct Excess {
     double stored = 0.0;
     double accounted = 0.0;
@@ -52,7 +52,7 @@ class EnergyGroups {
   /// A group whose energy can only be a numerical artefact
   /// (EnergyGrowthObserver).
   [[nodiscard]] std::optional<Excess> find_blow_up(bool is_end);
-  /// Whether a group stores more than ten times what is accounted for.
+  /// Whether a group stores more than ten times the supplied energy.
   [[nodiscard]] bool has_too_much() const;
 
   /// Whether two rows are of one group.
@@ -78,8 +78,8 @@ class EnergyGroups {
     double work = 0.0;                   // at the last include() [J]
     double throughput = 0.0;             // [J]
     Extreme drift;                       // [J]
-    Eigen::Index worst = -1;             // row of its largest share
-    double share = 0.0;                  // [J]
+    Eigen::Index worst = -1;             // row of its largest error
+    double place_error = 0.0;            // [J]
     EnergyGrowthObserver observer;
   };
   friend void exchange(Archive& archive, Group& group);
@@ -99,7 +99,7 @@ class EnergyGroups {
   void join_attachment(Eigen::Index row, AttachmentIndex attachment);
   void meet(Group& group, const Group& other) const;
   void include_extremes(std::size_t root);
-  void note_share(std::size_t root, const std::vector<EnergyAccount>& accounts);
+  void note_place(std::size_t root, const std::vector<EnergyAccount>& accounts);
 
   const SystemModel& model_;
   EnergyRows rows_;

@@ -281,8 +281,9 @@ EnergyRecord EnergyObserver::find_record(const VectorX& negligible) const {
   EnergyRecord record = record_;
   record.drift = groups_.drift();
   const auto is_worse = [](const EnergyDrift& a, const EnergyDrift& b) {
-    const double shares[] = {find_open_share(a), find_open_share(b)};
-    if (shares[0] != shares[1]) return shares[0] > shares[1];
+    const double fractions[] = {find_unbalanced_fraction(a),
+                                find_unbalanced_fraction(b)};
+    if (fractions[0] != fractions[1]) return fractions[0] > fractions[1];
     return std::abs(a.drift.value) > std::abs(b.drift.value);
   };
   for (EnergyDrift& drift :

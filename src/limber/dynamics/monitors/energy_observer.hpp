@@ -59,7 +59,7 @@ class EnergyObserver {
   [[nodiscard]] bool has_too_much(const SystemState& state,
                                   const SystemTerms& terms);
 
-  /// What the last step added did to the energy of a pair.
+  /// Change of a pair's energy by the last step added.
   struct PairStep {
     double time = 0.0;      ///< at its end [s]
     double stored = 0.0;    ///< in the pair, then [J]

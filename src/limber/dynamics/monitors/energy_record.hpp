@@ -15,7 +15,7 @@ namespace limber::dynamics {
 /// Limits     in a frame that moves as the group of connected bodies did at the
 ///            start (EnergyGroups). The exchange with other rows is that of the
 ///            powers at both ends of steps, whose error cancels in the sum over
-///            rows, so that an error of one row alone says little.
+///            rows, so that an error of a single row means little.
 struct EnergyRow {
   std::string name;         ///< as "body 'link'"
   double stored = 0.0;      ///< [J]
@@ -36,12 +36,12 @@ struct EnergyDrift {
   /// Row with the largest error of the drift's sign, as "body 'link'"; empty:
   /// none.
   std::string place;
-  double share = 0.0;       ///< of that row [J]
-  bool is_one_way = false;  ///< it is a body at that level
+  double place_error = 0.0;  ///< of that row [J]
+  bool is_one_way = false;   ///< it is a body at that level
 };
 
 /// Drift over throughput [-]; 0 if it may be round-off.
-[[nodiscard]] double find_open_share(const EnergyDrift& energy);
+[[nodiscard]] double find_unbalanced_fraction(const EnergyDrift& energy);
 
 /// Energy over all steps of a run, and its unexplained part.
 ///
@@ -55,7 +55,7 @@ struct EnergyRecord {
   Extreme coupler;          ///< in couplers and transmissions [J]
   double throughput = 0.0;  ///< sum over groups [J]
   double roundoff = 0.0;    ///< sum over groups [J]
-  EnergyDrift worst;        ///< of the group with the largest open share
+  EnergyDrift worst;  ///< of the group with the largest unbalanced fraction
   std::vector<EnergyRow> rows;  ///< those that hold or held energy
 };
 

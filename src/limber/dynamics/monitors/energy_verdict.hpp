@@ -14,8 +14,8 @@ namespace limber::dynamics {
 /// warning, and is rejected. Exempt from rejection are integrators that damp
 /// (implicit Euler) or have no consistent work (explicit Euler), and level
 /// one-way, which has no feedback.
-inline constexpr double kToldDrift = 0.01;  ///< gives a warning [-]
-inline constexpr double kMostDrift = 0.5;   ///< is rejected [-]
+inline constexpr double kReportedDrift = 0.01;  ///< gives a warning [-]
+inline constexpr double kMostDrift = 0.5;       ///< is rejected [-]
 
 /// Adds a warning if a group gained or lost energy: size, time, place.
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,

@@ -89,8 +89,8 @@ std::optional<EventObserver::Crossing> EventObserver::find_first(
     s.now = evaluate(s, after);
     const bool is_up = s.now.value >= 0.0;
     if (is_up == s.is_up) continue;
-    const double share = find_root(s.last, s.now, h, is_up);
-    if (!first || share < first->share) first = Crossing{i, share};
+    const double fraction = find_root(s.last, s.now, h, is_up);
+    if (!first || fraction < first->fraction) first = Crossing{i, fraction};
   }
   return first;
 }

@@ -25,7 +25,7 @@ class EventObserver {
   /// time, by the cubic through the values and rates at both ends.
   struct Crossing {
     std::size_t index = 0;  ///< index of the switch
-    double share = 0.0;     ///< fraction of the step, in [0, 1] [-]
+    double fraction = 0.0;  ///< fraction of the step, in [0, 1] [-]
   };
   /// @param after state at the step's end
   /// @param h length of the step [s]

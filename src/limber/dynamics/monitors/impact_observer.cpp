@@ -75,11 +75,11 @@ double find_common(double a, double b) {
 
 const char* advise_on_impacts(IntegratorKind scheme) {
   if (scheme == IntegratorKind::implicit_euler) {
-    return "take shorter steps or generalized-alpha";
+    return "use shorter steps or generalized-alpha";
   }
   return scheme == IntegratorKind::energy_conserving
-             ? "take shorter steps or more impact_steps"
-             : "take shorter steps, more impact_steps or energy-conserving";
+             ? "use shorter steps or more impact_steps"
+             : "use shorter steps, more impact_steps or energy-conserving";
 }
 
 }  // namespace
@@ -232,17 +232,17 @@ void ImpactObserver::add_warnings(std::vector<std::string>& warnings) const {
 
 void ImpactObserver::add_deep(const std::vector<ContactRecord>& records,
                               std::vector<std::string>& warnings) const {
-  std::set<std::string> said;
+  std::set<std::string> reported;
   for (const ContactRecord& record : records) {
     const double over_extent = record.peak_depth / find_extent(record.pair);
     const double over_radius = record.peak_depth_over_radius;
     const bool is_round = over_radius > kDeepest;
     if (!is_round && !(over_extent > kDeepest)) continue;
-    if (!said.insert(record.pair).second) continue;
+    if (!reported.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
-        "contact '{}': the impact at t = {:.6g} s is {:.3g} m deep, {:.2g} of "
-        "the {}; Hertz's law is that of small deformation: beyond {:g} do not "
-        "trust its force and energy",
+        "contact '{}': the impact at t = {:.6g} s penetrates by {:.3g} m, "
+        "{:.2g} of the {}; Hertz's law assumes small deformation: beyond {:g} "
+        "its force and energy are not reliable",
         record.pair, record.time, record.peak_depth,
         is_round ? over_radius : over_extent,
         is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
@@ -261,11 +261,12 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
   for (const ContactRecord& record : records) {
     if (!record.is_impact()) continue;
     Worst& worst = pairs[record.pair];
-    const double share = record.energy.open_share();
+    const double fraction = record.energy.unbalanced_fraction();
     ++worst.impacts;
-    if (!(share > kToldDrift)) continue;
+    if (!(fraction > kReportedDrift)) continue;
     ++worst.open;
-    if (worst.record == nullptr || share > worst.record->energy.open_share()) {
+    if (worst.record == nullptr ||
+        fraction > worst.record->energy.unbalanced_fraction()) {
       worst.record = &record;
     }
   }
@@ -273,27 +274,28 @@ void ImpactObserver::add_unbalanced(const std::vector<ContactRecord>& records,
     if (worst.record == nullptr) continue;
     const ImpactEnergy& energy = worst.record->energy;
     warnings.push_back(fmt::format(
-        "contact '{}': in the impact at t = {:.6g} s steps {} {:.3g} J that "
-        "nothing accounts for, {:.3g} % of its {:.3g} J, so that its "
-        "restitution is not kept; {} of {} impacts have more than {:g} %; {}",
-        name, worst.record->time, energy.error < 0.0 ? "lose" : "gain",
-        std::abs(energy.error), 100.0 * energy.open_share(),
+        "contact '{}': energy error in the impact at t = {:.6g} s: {:.3g} J "
+        "{}, {:.3g} % of its {:.3g} J, so that its restitution is not met; {} "
+        "of {} impacts have more than {:g} %; {}",
+        name, worst.record->time, std::abs(energy.error),
+        energy.error < 0.0 ? "lost" : "gained",
+        100.0 * energy.unbalanced_fraction(),
         std::max(energy.in, energy.returned), worst.open, worst.impacts,
-        100.0 * kToldDrift, advise_on_impacts(scheme_)));
+        100.0 * kReportedDrift, advise_on_impacts(scheme_)));
   }
 }
 
 // Once per pair, for touches without a common normal (Touching::begin_touch).
 void ImpactObserver::add_unmet(const std::vector<ContactRecord>& records,
                                std::vector<std::string>& warnings) const {
-  std::set<std::string> said;
+  std::set<std::string> reported;
   for (const ContactRecord& record : records) {
     if (!std::isinf(record.impact_duration)) continue;
-    if (!said.insert(record.pair).second) continue;
+    if (!reported.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
-        "contact '{}': at t = {:.6g} s surfaces meet that do not face each "
-        "other, as where an open one is met from behind: there is no force, "
-        "and both may pass through each other",
+        "contact '{}': at t = {:.6g} s the surfaces in contact do not face "
+        "each other, for example an open surface hit from behind: no force "
+        "acts, and the bodies may pass through each other",
         record.pair, record.time));
   }
 }

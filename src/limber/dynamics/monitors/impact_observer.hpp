@@ -14,7 +14,7 @@
 namespace limber::dynamics {
 
 /// The impulse of a contact's normal force on B, and where it acts: its line
-/// does not change if both bodies move on at one velocity.
+/// does not change if both bodies share a common velocity.
 struct NormalImpulse {
   double sum = 0.0;                     ///< of the forces' sizes [N s]
   Vector3 impulse_W = Vector3::Zero();  ///< [N s]
@@ -39,7 +39,7 @@ constexpr auto fields_of(const PairVelocities*) {
                      "B [rad/s]");
 }
 
-/// A contact of a pair, from its first to its last touch.
+/// A contact of a pair, from its beginning to its end.
 struct OngoingContact {
   bool is_touching = false;
   double left = 0.0;          ///< time of the last leave [s]

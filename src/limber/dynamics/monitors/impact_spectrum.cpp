@@ -68,18 +68,18 @@ std::string describe(const ImpactSpectrum& spectrum) {
       "contact '{}': an impact lasts about {:.3g} s, and the {} modes of body "
       "'{}' end at {:.4g} Hz, {:.2g} periods of which fit into it",
       spectrum.pair, spectrum.duration, spectrum.modes, spectrum.body,
-      spectrum.frequency, spectrum.share());
-  if (spectrum.is_enough()) return found + ": they answer to it";
+      spectrum.frequency, spectrum.fraction());
+  if (spectrum.is_enough()) return found + ": they respond to it";
   const std::string more =
       spectrum.needed
-          ? fmt::format("; about {} modes would answer", *spectrum.needed)
+          ? fmt::format("; about {} modes would respond", *spectrum.needed)
           : "";
   return fmt::format(
-      "{}, {:g} are needed: what they leave out deforms but does not vibrate, "
-      "so forces may be off by a tenth or two{}{}",
+      "{}, {:g} are needed: the remaining deformation is quasi-static, so "
+      "forces may be wrong by 10 to 20 %{}{}",
       found, ImpactSpectrum::kEnough,
-      spectrum.share() < ImpactSpectrum::kPoor
-          ? ", and impulses by a fifth or more"
+      spectrum.fraction() < ImpactSpectrum::kPoor
+          ? ", and impulses by 20 % or more"
           : "",
       more);
 }

@@ -12,13 +12,13 @@ namespace limber::dynamics {
 
 /// Whether a body's basis has frequencies for the shortest impact on it.
 ///
-/// Equation   share = f_max T_c, with f_max of the highest mode
+/// Equation   fraction = f_max T_c, with f_max of the highest mode
 /// Source     docs/theory/contact_laws.md, "Modes for an impact": measured
 ///            against whole finite elements
 /// Limits     static-deformation modes count as eigenmodes of their frequency,
 ///            which may be above those of the body: f_max is then too high
 struct ImpactSpectrum {
-  static constexpr double kEnough = 2.0;  ///< share [-]
+  static constexpr double kEnough = 2.0;  ///< fraction [-]
   static constexpr double kPoor = 0.6;    ///< impulses err by a fifth [-]
 
   std::string pair;        ///< name
@@ -30,8 +30,8 @@ struct ImpactSpectrum {
   /// of fewer than four modes.
   std::optional<int> needed;
 
-  [[nodiscard]] double share() const { return frequency * duration; }
-  [[nodiscard]] bool is_enough() const { return share() >= kEnough; }
+  [[nodiscard]] double fraction() const { return frequency * duration; }
+  [[nodiscard]] bool is_enough() const { return fraction() >= kEnough; }
 };
 
 /// One for each pair of bodies that touched, for each of its bodies with modes

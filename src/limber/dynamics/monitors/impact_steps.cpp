@@ -136,14 +136,14 @@ void ImpactSteps::accept(double h) {
 }
 
 std::optional<std::size_t> ImpactSteps::take_excess() {
-  if (!has_excess_ || was_told_) return std::nullopt;
-  was_told_ = true;
+  if (!has_excess_ || was_reported_) return std::nullopt;
+  was_reported_ = true;
   return fastest_;
 }
 
 void ImpactSteps::exchange_memory(Archive& archive) {
   archive(longest_, step_, parts_, is_struck_, quiet_, frequency_, fastest_,
-          rest_frequency_, has_excess_, was_told_);
+          rest_frequency_, has_excess_, was_reported_);
 }
 
 }  // namespace limber::dynamics

@@ -23,7 +23,8 @@ namespace limber::dynamics {
 ///            of the run; what is slower, for longer than a turn takes, rests,
 ///            as a body on the ground, or in a grip that tightens. After a step
 ///            one longer by a quarter is tried.
-/// Limits     a longer step gets at most so many parts; the rest of it is taken
+/// Limits     a longer step gets at most that many parts; the remainder is
+/// taken
 ///            at once
 class ImpactSteps {
  public:
@@ -45,10 +46,10 @@ class ImpactSteps {
   /// Whether the next step, or the last one that was shortened, is part of an
   /// impact that it resolves.
   [[nodiscard]] bool is_struck() const { return is_struck_; }
-  /// Whether the step last asked about is, and did not count as that before;
+  /// Whether the step of the last query is, and did not count as that before;
   /// from here on it does.
   [[nodiscard]] bool take_onset();
-  /// Accepts the step last asked about.
+  /// Accepts the step of the last query.
   void accept(double h);
 
   /// Pair whose impacts shorten steps.
@@ -85,7 +86,7 @@ class ImpactSteps {
   std::size_t fastest_ = 0;
   double rest_frequency_ = 0.0;  // largest of those that do not count [rad/s]
   bool has_excess_ = false;
-  bool was_told_ = false;
+  bool was_reported_ = false;
 };
 
 }  // namespace limber::dynamics

@@ -36,7 +36,7 @@ std::optional<double> find_mobility(const SystemModel& model,
 /// Natural frequency of a joint of rigid bodies [Hz].
 std::optional<double> find_hold_frequency(const SystemModel& model,
                                           const Coupler& coupler) {
-  const auto stiffness = joints::find_hold_stiffness(coupler.law);
+  const auto stiffness = joints::find_constraint_stiffness(coupler.law);
   if (!stiffness || !(stiffness->translational > 0.0)) return std::nullopt;
   const auto mobility = find_mobility(model, find_bodies(model, coupler));
   if (!mobility) return std::nullopt;
@@ -71,12 +71,12 @@ std::vector<JointResponse> find_joint_responses(
 }
 
 std::string describe(const JointResponse& response) {
-  const double ratio = JointResponse::kEnough / response.share();
+  const double ratio = JointResponse::kEnough / response.fraction();
   return fmt::format(
-      "joint '{}' is slow beside the impact of contact '{}': it vibrates at "
-      "{:.4g} Hz and the impact lasts about {:.3g} s, so it does not hold its "
-      "bodies while they strike, and the rebound is wrong; {:.2g} times its "
-      "stiffness would do",
+      "joint '{}' is slow relative to the impact of contact '{}': it vibrates "
+      "at {:.4g} Hz and the impact lasts about {:.3g} s, so it does not "
+      "constrain its bodies during the impact, and the rebound is wrong; "
+      "{:.2g} times its stiffness would suffice",
       response.joint, response.pair, response.frequency, response.duration,
       ratio * ratio);
 }

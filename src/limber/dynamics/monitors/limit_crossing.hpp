@@ -10,13 +10,14 @@
 namespace limber::dynamics {
 
 /// Finds where drives reach and leave their effort limit within a step, and
-/// where those that only pull go slack and taut: there the rate of the effort
-/// jumps, and schemes of second order lose an order.
+/// where drives that only pull become slack or taut: there the rate of the
+/// effort jumps, and schemes of second order lose an order.
 ///
 /// Equation   the ratio of the effort before clipping to the limit, along the
 ///            cubic through a drive's coordinate and rate at both ends, with
 ///            the command at its own time
-/// Limits     looked at nine times a step, which is short beside the command's
+/// Limits     evaluated nine times a step, which is short relative to the
+/// command's
 ///            period: a shorter stay is missed. Not for the speed limit of
 ///            effort drives, nor drives that only pull, without a limit.
 class LimitCrossing {

@@ -20,7 +20,7 @@ constexpr double kLarge = 0.1;  // of the body's size: gives a warning
 constexpr double kAbsurdDeformation = 1.0;  // of it: gives an error
 constexpr double kHarmless = 0.5;           // of the lowest frequency
 // Above this the error of second order in the modes exceeds a percent [rad].
-constexpr double kLargeTurn = 0.4;
+constexpr double kLargeRotation = 0.4;
 
 // The mode that moves points most.
 Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
@@ -31,8 +31,8 @@ Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
 }
 
 // Eigenvalues of B against the stiffness of the undeformed body.
-VectorX find_shares(const flexbody::ModalElasticity& elasticity,
-                    const MatrixX& B) {
+VectorX find_fractions(const flexbody::ModalElasticity& elasticity,
+                       const MatrixX& B) {
   MatrixX scaled;
   if (flexbody::is_diagonal_at_rest(elasticity)) {
     const VectorX scale =
@@ -59,23 +59,23 @@ double find_harmless_square(const BodyModel& body) {
   return kHarmless * kHarmless * lowest;
 }
 
-// Shares of stiffness that a spin with these products cancels.
-VectorX find_shares(const BodyModel& body, const Vector6& half_w_squared) {
+// Fractions of stiffness that a spin with these products cancels.
+VectorX find_fractions(const BodyModel& body, const Vector6& half_w_squared) {
   MatrixX B(body.modes, body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
       B(k, l) = half_w_squared.dot(body.inertia->J2(k).row(l));
     }
   }
-  return find_shares(body.elasticity, B);
+  return find_fractions(body.elasticity, B);
 }
 
-// The largest magnitude of a share for each product of spins [s^2/rad^2].
-Vector6 find_unit_shares(const BodyModel& body) {
+// The largest magnitude of a fraction for each product of spins [s^2/rad^2].
+Vector6 find_unit_fractions(const BodyModel& body) {
   Vector6 units;
   for (int i = 0; i < 6; ++i) {
     units[i] =
-        find_shares(body, Vector6(Vector6::Unit(i))).cwiseAbs().maxCoeff();
+        find_fractions(body, Vector6(Vector6::Unit(i))).cwiseAbs().maxCoeff();
   }
   return units;
 }
@@ -91,17 +91,17 @@ std::string name_limit(const BodyModel& body) {
 }
 
 // Behaviour of a body beyond the critical speed of its undeformed shape.
-const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
+const char* describe_beyond(const flexbody::ModalElasticity& elasticity) {
   return flexbody::is_linear(elasticity)
              ? "its deformation grows without bound; level full includes the "
                "stiffening of a real body"
-             : "it leaves its undeformed shape; level full tells how far";
+             : "it leaves its undeformed shape; level full shows how far";
 }
 
 // Largest rotation of an interface relative to the mean-axis frame [rad].
-double find_turn(const SystemModel& model, const SystemState& state,
-                 std::size_t body) {
-  double turn = 0.0;
+double find_rotation(const SystemModel& model, const SystemState& state,
+                     std::size_t body) {
+  double rotation = 0.0;
   const double* eta = state.eta.data() + model.bodies[body].offset;
   for (const Attachment& attachment : model.attachments) {
     if (!attachment.second || attachment.body != static_cast<int>(body)) {
@@ -112,16 +112,16 @@ double find_turn(const SystemModel& model, const SystemState& state,
     flexbody::add_slopes(*attachment.second, eta, Phi_B, Psi_B);
     const Vector3 psi =
         0.5 * (combine(attachment.Psi_B, eta) + combine(Psi_B, eta));
-    turn = std::max(turn, psi.norm());
+    rotation = std::max(rotation, psi.norm());
   }
-  return turn;
+  return rotation;
 }
 
 }  // namespace
 
 double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
   if (!(w_WB_B.squaredNorm() > find_harmless_square(body))) return 0.0;
-  return find_shares(body, half_square(w_WB_B)).maxCoeff();
+  return find_fractions(body, half_square(w_WB_B)).maxCoeff();
 }
 
 std::optional<std::string> describe_softening(const BodyModel& body,
@@ -130,23 +130,24 @@ std::optional<std::string> describe_softening(const BodyModel& body,
   if (!(mu >= 1.0)) return std::nullopt;
   const double speed = w_WB_B.norm();
   return fmt::format(
-      "body '{}' turns at {:.4g} rad/s, above its critical speed of {:.4g} "
+      "body '{}' rotates at {:.4g} rad/s, above its critical speed of {:.4g} "
       "rad/s in linear elasticity: its effective stiffness is below zero and "
       "{}",
-      body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
+      body.name, speed, speed / std::sqrt(mu),
+      describe_beyond(body.elasticity));
 }
 
-std::optional<std::string> describe_large_turn(const SystemModel& model,
-                                               const SystemState& state,
-                                               std::size_t body) {
+std::optional<std::string> describe_large_rotation(const SystemModel& model,
+                                                   const SystemState& state,
+                                                   std::size_t body) {
   if (!is_quadratic(model.bodies[body])) return std::nullopt;
-  const double turn = find_turn(model, state, body);
-  if (!(turn > kLargeTurn)) return std::nullopt;
+  const double rotation = find_rotation(model, state, body);
+  if (!(rotation > kLargeRotation)) return std::nullopt;
   return fmt::format(
-      "body '{}' has bent until an interface turned by {:.3g} rad, where level "
-      "nonlinear holds up to {:g} rad; smaller loads and speeds, pieces or "
+      "body '{}' has bent until an interface rotated by {:.3g} rad; level "
+      "nonlinear is valid up to {:g} rad; smaller loads and speeds, pieces or "
       "level full may help",
-      model.bodies[body].name, turn, kLargeTurn);
+      model.bodies[body].name, rotation, kLargeRotation);
 }
 
 LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
@@ -175,13 +176,15 @@ bool LinearLimit::may_exceed(const SystemState& state, Body& body,
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
                                     std::vector<std::string>& warnings) const {
   if (body.size == 0.0) return;
-  const double share = body.was_told_large ? kAbsurdDeformation : kLarge;
-  if (!may_exceed(state, body, share * body.size)) return;
+  const double fraction = body.was_reported_large ? kAbsurdDeformation : kLarge;
+  if (!may_exceed(state, body, fraction * body.size)) return;
   const BodyModel& model = model_.bodies[body.index];
   const double deformation = body.displacement;
   const bool is_nonlinear = is_quadratic(model);
-  const double turn = is_nonlinear ? find_turn(model_, state, body.index) : 0.0;
-  if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
+  const double rotation =
+      is_nonlinear ? find_rotation(model_, state, body.index) : 0.0;
+  if (is_nonlinear && rotation <= kLargeRotation && deformation <= body.size)
+    return;
   const Eigen::Index mode = find_largest_mode(body.measure, body.eta);
   const std::string what = fmt::format(
       "body '{}' at t = {:.9g} s: deformed by {:.3g} m, {:.3g} % of its size "
@@ -194,45 +197,44 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
     const auto soft =
         describe_softening(model, state.bodies[body.index].w_WB_B);
     throw NumericalError(
-        what + ": " + name_limit(model) + " has no answer there" +
+        what + ": " + name_limit(model) + " is not valid there" +
         (soft ? "; " + *soft
               : "; smaller loads, a stiffer body or level full may help"));
   }
-  if (body.was_told_large) return;
-  body.was_told_large = true;
+  if (body.was_reported_large) return;
+  body.was_reported_large = true;
   if (is_nonlinear) {
     warnings.push_back(fmt::format(
-        "{}, and turned by {:.3g} rad at an interface: beyond {:g} rad level "
-        "nonlinear is not to be trusted; level full has large deformations",
-        what, turn, kLargeTurn));
+        "{}, and rotated by {:.3g} rad at an interface: beyond {:g} rad level "
+        "nonlinear is not reliable; use level full for large deformations",
+        what, rotation, kLargeRotation));
     return;
   }
   warnings.push_back(what + ": beyond 10 % " + name_limit(model) +
-                     " is not to be trusted; level full has large "
-                     "deformations");
+                     " is not reliable; use level full for large deformations");
 }
 
 bool LinearLimit::may_soften(const SystemState& state, Body& body) const {
   const Vector3& w_WB_B = state.bodies[body.index].w_WB_B;
   if (!(w_WB_B.squaredNorm() > body.harmless_square)) return false;
   const BodyModel& model = model_.bodies[body.index];
-  if (!body.unit_shares) body.unit_shares = find_unit_shares(model);
+  if (!body.unit_fractions) body.unit_fractions = find_unit_fractions(model);
   const Vector6 products = half_square(w_WB_B);
   const double change =
-      body.unit_shares->dot((products - body.products).cwiseAbs());
+      body.unit_fractions->dot((products - body.products).cwiseAbs());
   if (body.softening + change < 1.0) return false;
   body.products = products;
-  body.softening = find_shares(model, products).maxCoeff();
+  body.softening = find_fractions(model, products).maxCoeff();
   return body.softening >= 1.0;
 }
 
 void LinearLimit::check_speed(const SystemState& state, Body& body,
                               std::vector<std::string>& warnings) const {
-  if (body.was_told_soft || !may_soften(state, body)) return;
+  if (body.was_reported_soft || !may_soften(state, body)) return;
   const auto text = describe_softening(model_.bodies[body.index],
                                        state.bodies[body.index].w_WB_B);
   if (!text) return;
-  body.was_told_soft = true;
+  body.was_reported_soft = true;
   warnings.push_back(fmt::format("at t = {:.9g} s {}", state.t, *text));
 }
 
@@ -245,7 +247,8 @@ void LinearLimit::check(const SystemState& state,
 }
 
 void LinearLimit::exchange_memory(Archive& archive) {
-  for (Body& body : bodies_) archive(body.was_told_large, body.was_told_soft);
+  for (Body& body : bodies_)
+    archive(body.was_reported_large, body.was_reported_soft);
 }
 
 }  // namespace limber::dynamics

@@ -12,7 +12,7 @@
 
 namespace limber::dynamics {
 
-/// Share of the undeformed body's stiffness that rotation cancels, in linear
+/// Fraction of the undeformed body's stiffness that rotation cancels, in linear
 /// elasticity.
 ///
 /// Equation   largest eigenvalue mu of Lambda^-1/2 B Lambda^-1/2, with
@@ -28,9 +28,10 @@ namespace limber::dynamics {
                                     const Vector3& w_WB_B);
 
 /// Monitors deformations: linear elasticity is valid for small ones only. It
-/// looks at every step, so what it finds does not depend on the outputs.
+/// evaluates every step, so its result does not depend on the outputs.
 ///
-/// Equation   displacements and shares of stiffness are computed where a bound
+/// Equation   displacements and fractions of stiffness are computed where a
+/// bound
 ///            on their change since the last time does not exclude a finding:
 ///            |u(eta)| <= |u(eta_0)| + sum_k size_k |eta - eta_0|_k and
 ///            mu(q) <= mu(q_0) + sum_i mu(e_i) |q - q_0|_i of q = w' w / 2
@@ -42,7 +43,8 @@ class LinearLimit {
 
   /// The end of a step. Adds a warning, once per body, if its deformation
   /// exceeds 10 % of its longest edge, or its spin the critical speed of linear
-  /// elasticity; at level nonlinear if an interface turns by more than 0.4 rad.
+  /// elasticity; at level nonlinear if an interface rotates by more than 0.4
+  /// rad.
   /// @throws NumericalError naming the body, the dominant mode and the time if
   /// the deformation exceeds 100 %, which is not a valid result.
   void check(const SystemState& state, std::vector<std::string>& warnings);
@@ -56,9 +58,9 @@ class LinearLimit {
     double size = 0.0;             // longest edge, 0: unknown [m]
     double harmless_square = 0.0;  // of its spin [rad^2/s^2]
     DisplacementMeasure measure;
-    std::optional<Vector6> unit_shares = {};  // if needed yet [s^2/rad^2]
-    bool was_told_large = false;
-    bool was_told_soft = false;
+    std::optional<Vector6> unit_fractions = {};  // if needed yet [s^2/rad^2]
+    bool was_reported_large = false;
+    bool was_reported_soft = false;
     // The last ones that were computed.
     VectorX eta = {};
     double displacement = 0.0;           // [m]
@@ -81,9 +83,9 @@ class LinearLimit {
 [[nodiscard]] std::optional<std::string> describe_softening(
     const BodyModel& body, const Vector3& w_WB_B);
 
-/// Warning about a body at level nonlinear, an interface of which has turned by
-/// more than 0.4 rad; nothing if none has.
-[[nodiscard]] std::optional<std::string> describe_large_turn(
+/// Warning about a body at level nonlinear, an interface of which has rotated
+/// by more than 0.4 rad; nothing if none has.
+[[nodiscard]] std::optional<std::string> describe_large_rotation(
     const SystemModel& model, const SystemState& state, std::size_t body);
 
 }  // namespace limber::dynamics

@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostSearches = 6;
 // Relative to the time of three samples: convergence of a search.
 constexpr double kClose = 1e-3;
-// A parabola may be low by this share of its addition.
+// A parabola may be low by this fraction of its addition.
 constexpr double kParabolaError = 0.5;
 // Relative to the range of three values: limit of the addition to the largest.
 constexpr double kMostAdded = 0.5;
@@ -244,7 +244,7 @@ PeakPoint PeakObserver::search(std::size_t scalar, PeakPoints points,
 void PeakObserver::exchange_memory(Archive& archive) {
   archive(samples_, newest_, count_, peaks_, places_);
   if (!is_idle() && peaks_.size() != followed_.courses.size()) {
-    throw InputError("the record is of a run that followed other scalars");
+    throw InputError("the record belongs to a run that observed other scalars");
   }
   if (followed_.motion_observer)
     followed_.motion_observer->exchange_memory(archive);

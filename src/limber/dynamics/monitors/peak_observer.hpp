@@ -48,8 +48,8 @@ class PeakObserver {
   const std::vector<Extreme>& finish();
   /// finish(), where each extreme was, -1 for nowhere (Followed::find_place),
   /// and the envelopes.
-  void tell(std::vector<Extreme>& peaks, std::vector<int>& places,
-            Envelopes& envelopes) {
+  void store(std::vector<Extreme>& peaks, std::vector<int>& places,
+             Envelopes& envelopes) {
     peaks = finish();
     places = places_;
     envelopes = envelopes_;

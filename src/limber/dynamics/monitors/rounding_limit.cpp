@@ -32,7 +32,7 @@ struct Rounding {
   std::size_t body = 0;
   double distance = 0.0;  // from the world's origin [m]
   double radius = 0.0;    // of gyration [m]
-  double share = 0.0;     // of the radius that is rounded away [-]
+  double fraction = 0.0;  // of the radius that is rounded away [-]
 };
 
 Rounding find_largest_rounding(const std::vector<double>& radii,
@@ -40,9 +40,10 @@ Rounding find_largest_rounding(const std::vector<double>& radii,
   Rounding largest;
   for (std::size_t b = 0; b < radii.size(); ++b) {
     const double distance = state.bodies[b].p_WB.stableNorm();
-    const double share =
+    const double fraction =
         std::numeric_limits<double>::epsilon() * distance / radii[b];
-    if (share > largest.share) largest = {b, distance, radii[b], share};
+    if (fraction > largest.fraction)
+      largest = {b, distance, radii[b], fraction};
   }
   return largest;
 }
@@ -55,7 +56,7 @@ std::string describe_rounding(const SystemModel& model,
       "where positions are rounded to {:.2g} m, {:.2g} of its radius of "
       "gyration ({:.3g} m)",
       model.bodies[rounding.body].name, state.t, rounding.distance,
-      rounding.share * rounding.radius, rounding.share, rounding.radius);
+      rounding.fraction * rounding.radius, rounding.fraction, rounding.radius);
 }
 
 }  // namespace
@@ -65,22 +66,24 @@ RoundingLimit::RoundingLimit(const SystemModel& model)
 
 void RoundingLimit::check(const SystemState& state,
                           std::vector<std::string>& warnings) {
-  if (was_told_) return;
+  if (was_reported_) return;
   const Rounding rounding = find_largest_rounding(radii_, state);
-  if (rounding.share <= kVisible) return;
-  was_told_ = true;
+  if (rounding.fraction <= kVisible) return;
+  was_reported_ = true;
   warnings.push_back(fmt::format(
       "{}: deformations are off by as much, and forces of joints by that times "
-      "their stiffness; an origin near the bodies would help",
+      "their stiffness; move the origin nearer to the bodies",
       describe_rounding(model_, state, rounding)));
 }
 
-void RoundingLimit::exchange_memory(Archive& archive) { archive(was_told_); }
+void RoundingLimit::exchange_memory(Archive& archive) {
+  archive(was_reported_);
+}
 
 void check_rounding(const SystemModel& model, const SystemState& state) {
   const Rounding rounding =
       find_largest_rounding(find_radii_of_gyration(model), state);
-  if (rounding.share <= kAbsurdRounding) return;
+  if (rounding.fraction <= kAbsurdRounding) return;
   throw InputError(fmt::format("{}; expected at most {:.2g} of it",
                                describe_rounding(model, state, rounding),
                                kAbsurdRounding));

@@ -25,13 +25,13 @@ class RoundingLimit {
   /// its size. @param state with frames of unreduced bodies at their nodes
   void check(const SystemState& state, std::vector<std::string>& warnings);
 
-  /// Saves or restores whether it was told, for checkpoints.
+  /// Saves or restores whether it was reported, for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
   const SystemModel& model_;
   std::vector<double> radii_;  // of gyration [m]
-  bool was_told_ = false;
+  bool was_reported_ = false;
 };
 
 /// @throws InputError naming the body if its position is rounded to more than

@@ -22,7 +22,7 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator)
     : model_(model),
       energy_observer_(model, integrator),
-      holds_(model),
+      deflection_(model),
       limits_(model),
       terms_(make_terms(model)),
       stride_(leaves_terms(model, integrator) ? 1 : kStride) {}
@@ -35,7 +35,7 @@ const SystemTerms& StepObserver::evaluate(const SystemState& state, Side side) {
 void StepObserver::start(const SystemState& state, const SystemTerms& terms,
                          double taken, std::vector<Event>& events) {
   energy_observer_.start(state, terms, taken);
-  holds_.include(state, terms);
+  deflection_.include(state, terms);
   limits_.include(state, terms, events);
 }
 
@@ -59,20 +59,21 @@ void StepObserver::include(const SystemState& state, const SystemTerms* terms,
     now = &evaluate(state, Side::left);
     energy_observer_.add(state, *now, flows);
   }
-  holds_.include(state, *now);
+  deflection_.include(state, *now);
   limits_.include(state, *now, events);
 }
 
 EnergyRecord StepObserver::find_energy() const {
   const EnergyRows rows(model_);
   VectorX negligible = VectorX::Zero(rows.count);
-  holds_.add_negligible_energies(
+  deflection_.add_negligible_energies(
       negligible.segment(rows.couplers, std::ssize(model_.couplers)));
   return energy_observer_.find_record(negligible);
 }
 
 void StepObserver::add_warnings(std::vector<std::string>& warnings) const {
-  for (const auto& texts : {holds_.find_warnings(), limits_.find_warnings()}) {
+  for (const auto& texts :
+       {deflection_.find_warnings(), limits_.find_warnings()}) {
     warnings.insert(warnings.end(), texts.begin(), texts.end());
   }
 }
@@ -80,7 +81,7 @@ void StepObserver::add_warnings(std::vector<std::string>& warnings) const {
 void StepObserver::exchange_memory(Archive& archive) {
   archive(steps_);
   energy_observer_.exchange_memory(archive);
-  holds_.exchange_memory(archive);
+  deflection_.exchange_memory(archive);
   limits_.exchange_memory(archive);
 }
 

@@ -38,17 +38,17 @@ class StepObserver {
                const EnergyFlows& flows, bool is_exact,
                std::vector<Event>& events);
 
-  /// As of EnergyObserver, at the last state included.
+  /// See EnergyObserver; at the last state included.
   [[nodiscard]] std::optional<EnergyGroups::Excess> find_blow_up(bool is_end) {
     return energy_observer_.find_blow_up(is_end);
   }
   [[nodiscard]] bool has_too_much() { return energy_observer_.has_too_much(); }
-  /// As of EnergyObserver, at any state.
+  /// See EnergyObserver; at any state.
   [[nodiscard]] bool has_too_much(const SystemState& state) {
     return energy_observer_.has_too_much(state, evaluate(state, Side::right));
   }
 
-  /// As of EnergyObserver.
+  /// See EnergyObserver.
   [[nodiscard]] EnergyObserver::PairStep find_pair_step(
       std::size_t pair) const {
     return energy_observer_.find_pair_step(pair);
@@ -65,7 +65,7 @@ class StepObserver {
 
   const SystemModel& model_;
   EnergyObserver energy_observer_;
-  DeflectionObserver holds_;
+  DeflectionObserver deflection_;
   EffortLimitObserver limits_;
   SystemTerms terms_;
   long stride_;

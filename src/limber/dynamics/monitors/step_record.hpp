@@ -68,8 +68,8 @@ struct StepTimes {
 };
 
 /// Measures the parts of every 37th step, so that it costs less than a
-/// hundredth, and every output. What happens at every 2^n-th step counts as
-/// often as it happens.
+/// hundredth, and every output. Events at every 2^n-th step are counted as
+/// often as they occur.
 class StepTimer {
  public:
   using Clock = std::chrono::steady_clock;

@@ -42,13 +42,13 @@ void set_applied(const VectorX& wrenches, SystemTerms& terms) {
 }
 
 void add_to_applied(const std::vector<Vector6>& increments, SystemTerms& terms,
-                    double share) {
+                    double fraction) {
   const std::size_t couplers = terms.couplers.size();
   for (std::size_t c = 0; c < couplers; ++c) {
-    terms.couplers[c].applied += share * increments[c];
+    terms.couplers[c].applied += fraction * increments[c];
   }
   for (std::size_t i = 0; i < terms.transmissions.size(); ++i) {
-    terms.transmissions[i].applied += share * increments[couplers + i][0];
+    terms.transmissions[i].applied += fraction * increments[couplers + i][0];
   }
 }
 

@@ -16,8 +16,8 @@ void get_applied(const SystemTerms& terms, VectorX& wrenches);
 
 void set_applied(const VectorX& wrenches, SystemTerms& terms);
 
-/// @param increments of NewtonMatrix @param share of them that is added [-]
+/// @param increments of NewtonMatrix @param fraction of them that is added [-]
 void add_to_applied(const std::vector<Vector6>& increments, SystemTerms& terms,
-                    double share = 1.0);
+                    double fraction = 1.0);
 
 }  // namespace limber::dynamics

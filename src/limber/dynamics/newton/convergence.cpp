@@ -9,8 +9,8 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kErrorShare = 0.01;
-constexpr double kMostShare = 1e-9;  // of the step's motion [-]
+constexpr double kErrorFraction = 0.01;
+constexpr double kMostFraction = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
 // Contraction above which corrections that reverse alternate [-].
@@ -28,8 +28,8 @@ double find_rest(double size, double before) {
 CorrectionSize find_limit(const CorrectionSize& predictor_errors, double gamma,
                           double motion) {
   const auto choose = [&](double predictor_error) {
-    return std::clamp(kErrorShare * predictor_error / (12.0 * gamma),
-                      kLeastShare * motion, kMostShare * motion);
+    return std::clamp(kErrorFraction * predictor_error / (12.0 * gamma),
+                      kLeastFraction * motion, kMostFraction * motion);
   };
   CorrectionSize limit;
   limit.value = choose(predictor_errors.value);

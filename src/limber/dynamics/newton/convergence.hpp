@@ -10,10 +10,10 @@
 namespace limber::dynamics {
 
 /// Smallest error required, relative to a step's motion [-].
-inline constexpr double kLeastShare = 1e-12;
+inline constexpr double kLeastFraction = 1e-12;
 
 /// Fraction to take of a correction that reverses the one before [-].
-inline constexpr double kReversedShare = 0.5;
+inline constexpr double kReversedFraction = 0.5;
 
 /// Largest error allowed for both kinds of motion [m]: a hundredth of the
 /// step's own error, between 1e-12 and 1e-9 of its motion.

@@ -29,7 +29,7 @@ class ExactCorrection {
     const NewtonMatrix::Coefficients& coefficients;
   };
 
-  /// Increments as of NewtonMatrix::solve, and those of wrenches in `matrix`.
+  /// Increments as for NewtonMatrix::solve, and those of wrenches in `matrix`.
   void solve(const Point& point, const VectorX& residual, NewtonMatrix& matrix,
              VectorX& increments);
 

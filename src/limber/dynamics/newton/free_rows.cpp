@@ -27,19 +27,19 @@ Matrix3 multiply_reflections(const Eigen::Matrix<double, 3, 6>& qr,
 }  // namespace
 
 Matrix6 separate_free_rows(Matrix6& K) {
-  Matrix6 turn = Matrix6::Zero();
+  Matrix6 rotation = Matrix6::Zero();
   for (const int first : {0, 3}) {
     const Eigen::Matrix<double, 3, 6> rows = K.middleRows<3>(first);
     const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 6>> qr(rows);
     const Matrix3 Q = multiply_reflections(qr.matrixQR(), qr.hCoeffs());
-    turn.block<3, 3>(first, first) = Q.transpose();
+    rotation.block<3, 3>(first, first) = Q.transpose();
     K.middleRows<3>(first) = Q.transpose() * rows;
     const double noise = kFree * rows.cwiseAbs().maxCoeff();
     for (int i = first; i < first + 3; ++i) {
       if (K.row(i).cwiseAbs().maxCoeff() <= noise) K.row(i).setZero();
     }
   }
-  return turn;
+  return rotation;
 }
 
 }  // namespace limber::dynamics

@@ -8,7 +8,7 @@
 
 namespace limber::dynamics {
 
-/// How bodies that touch yield to each other's forces where joints hold them.
+/// Mobility of bodies in contact that are connected by joints.
 ///
 /// Equation   Y = w^2 (w^2 M + w D + K)^-1, at the rows of both bodies, K and D
 ///            of couplers and modes and w the frequency of the impact: what is

@@ -5,9 +5,9 @@ namespace limber::dynamics {
 
 void reflect_rows(const Vector3& p, Matrix6X& rows) {
   for (Eigen::Index k = 0; k < rows.cols(); ++k) {
-    const Vector3 turn = rows.col(k).tail<3>();
-    rows.col(k).head<3>() = p.cross(turn) - rows.col(k).head<3>();
-    rows.col(k).tail<3>() = -turn;
+    const Vector3 rotation = rows.col(k).tail<3>();
+    rows.col(k).head<3>() = p.cross(rotation) - rows.col(k).head<3>();
+    rows.col(k).tail<3>() = -rotation;
   }
 }
 

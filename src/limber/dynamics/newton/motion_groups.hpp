@@ -22,7 +22,7 @@ class MotionGroups {
 
   /// Joins groups whose bodies touch at `terms`, until the next call.
   void join_touching(const SystemModel& model, const SystemTerms& terms);
-  /// A group that stands for all that are joined with that of body `b`.
+  /// The representative of all groups that are joined with that of body `b`.
   [[nodiscard]] std::size_t find_joined(std::size_t b) const {
     return find(of(b));
   }
@@ -34,7 +34,7 @@ class MotionGroups {
   ///            sum m dp / sum m of the group; less nothing if the world holds
   ///            or touches it
   /// @param state with X_WH of unreduced bodies
-  /// @param terms as of join_touching
+  /// @param terms as for join_touching
   void measure_motion(const SystemModel& model, const SystemState& state,
                       const SystemTerms& terms, const VectorX& motion,
                       std::vector<double>& lengths);

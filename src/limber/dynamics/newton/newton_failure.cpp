@@ -14,26 +14,26 @@ namespace limber::dynamics {
 namespace {
 
 // Largest resolved rotation of a body in a step [rad].
-constexpr double kFastTurn = 0.5;
+constexpr double kFastRotation = 0.5;
 // Recommended rotation in a step [rad].
-constexpr double kGoodTurn = 0.1;
+constexpr double kGoodRotation = 0.1;
 
-std::string describe_turn(const NewtonFailure& f) {
+std::string describe_rotation(const NewtonFailure& f) {
   double fastest = 0.0;
   std::size_t body = 0;
   for (std::size_t b = 0; b < f.model.bodies.size(); ++b) {
-    const double turn = f.step * f.start.bodies[b].w_WB_B.norm();
-    if (turn > fastest) {
-      fastest = turn;
+    const double rotation = f.step * f.start.bodies[b].w_WB_B.norm();
+    if (rotation > fastest) {
+      fastest = rotation;
       body = b;
     }
   }
-  if (!(fastest > kFastTurn)) return {};
+  if (!(fastest > kFastRotation)) return {};
   return fmt::format(
-      "body '{}' turns by {:.2g} rad in the step of {:.3g} s; a step of {:.1g} "
-      "s "
-      "follows it",
-      f.model.bodies[body].name, fastest, f.step, f.step * kGoodTurn / fastest);
+      "body '{}' rotates by {:.2g} rad in the step of {:.3g} s; a step of "
+      "{:.1g} s would resolve it",
+      f.model.bodies[body].name, fastest, f.step,
+      f.step * kGoodRotation / fastest);
 }
 
 std::string describe_mode(const NewtonFailure& f) {
@@ -100,12 +100,12 @@ std::string describe_coupler(const NewtonFailure& f) {
 std::string describe(const NewtonFailure& failure, const char* what) {
   const std::string link = describe_broken_link(failure, what);
   if (!link.empty()) return link;
-  std::string cause = describe_turn(failure);
+  std::string cause = describe_rotation(failure);
   if (cause.empty()) cause = describe_mode(failure);
   if (cause.empty()) cause = describe_coupler(failure);
   return fmt::format(
-      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, where {:.3g} m "
-      "may be left): {}",
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
+      "{:.3g} m): {}",
       failure.model.bodies[failure.correction.body].name, failure.end, what,
       failure.correction.value, failure.limit, cause);
 }

@@ -64,7 +64,7 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   unknowns_.resize(index(plan_.rows));
 }
 
-// All but what add_end() knows.
+// All except what add_end() adds.
 void NewtonMatrix::finish_graph(const SystemModel& model) {
   graph_.links_of_body.resize(ends_of_body_.size());
   for (const End& end : ends_) {
@@ -171,11 +171,11 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
                       plan_.lu.block(static_cast<int>(i), static_cast<int>(i));
     compliances_[i].setZero();
     Matrix6 K = find_link_stiffness(terms, i, c.velocity);
-    const Matrix6 turn = separate_free_rows(K);
+    const Matrix6 rotation = separate_free_rows(K);
     const Vector6 scale =
         (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
             .cwiseInverse();
-    rows_[i] = scale.asDiagonal() * turn;
+    rows_[i] = scale.asDiagonal() * rotation;
     scaled_stiffness_[i] = scale.asDiagonal() * K;
   }
   for (const RetainedUnknowns& retained : plan_.retained)
@@ -198,7 +198,7 @@ Pose NewtonMatrix::find_pose(const SystemTerms& terms, int body) const {
   return {motion.R_WB, motion.p_WF - motion.R_WB * motion.arm_B};
 }
 
-// Its share of A, which is known only once it is eliminated.
+// Its fraction of A, which is known only once it is eliminated.
 void NewtonMatrix::add_compliances(const RetainedUnknowns& retained) {
   for (const int e : ends_of_body_[index(retained.body)]) {
     const End& end = ends_[index(e)];
@@ -265,9 +265,9 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
     unknowns_.resize(index(plan_.rows));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Vector3 turn = rotation_rows(model.bodies[b], motion);
-    const Matrix3 T = end_terms != nullptr ? cayley_jacobian_inverse(turn)
-                                           : right_jacobian_inverse(turn);
+    const Vector3 rotation = rotation_rows(model.bodies[b], motion);
+    const Matrix3 T = end_terms != nullptr ? cayley_jacobian_inverse(rotation)
+                                           : right_jacobian_inverse(rotation);
     if (!bodies_[b].update(model, state, terms, T, coefficients, renews_all)) {
       continue;
     }

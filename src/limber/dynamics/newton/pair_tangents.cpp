@@ -28,10 +28,10 @@ void fill_rows(const BodyModel& body, const Matrix3& R_WB, const double* eta,
   modes = place.Phi_B.leftCols(body.modes);
   flexbody::add_product_columns(paired_of(body),
                                 place.Phi_B.rightCols(products), eta, modes);
-  const Matrix3 turn = sign * R_WB;
+  const Matrix3 rotation = sign * R_WB;
   for (Eigen::Index k = 0; k < body.modes; ++k) {
     const Vector3 column = modes.col(k);
-    modes.col(k) = turn * column;
+    modes.col(k) = rotation * column;
   }
 }
 

@@ -23,7 +23,7 @@ Vector6 change_half_square(const Vector3& w, const Vector3& dw) {
 }
 
 // Change of a wrench by rotation of its axes.
-Vector6 turn(const Vector3& phi, const Vector6& wrench) {
+Vector6 rotate(const Vector3& phi, const Vector6& wrench) {
   Vector6 turned;
   turned << phi.cross(wrench.head<3>()), phi.cross(wrench.tail<3>());
   return turned;
@@ -277,8 +277,8 @@ void ResidualDerivative::change_pair(const Coupler& coupler,
   d_on_F << d_force_F, d_wrench.tail<3>() + p.cross(d_force_F) +
                            Vector3(change.position.head<3>()).cross(force_F);
   const Vector3 phi = R_WF.transpose() * frames_[index(coupler.frame_F)].phi;
-  const Vector6 d_M = d_wrench + turn(phi, wrench);
-  const Vector6 d_F = d_on_F + turn(phi, on_F);
+  const Vector6 d_M = d_wrench + rotate(phi, wrench);
+  const Vector6 d_F = d_on_F + rotate(phi, on_F);
   change_wrench(coupler.frame_M, R_WF * force_F, R_WF * wrench.tail<3>(),
                 R_WF * d_M.head<3>(), R_WF * d_M.tail<3>(), x, r);
   change_wrench(coupler.frame_F, -(R_WF * force_F), -(R_WF * on_F.tail<3>()),

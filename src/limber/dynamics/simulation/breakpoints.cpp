@@ -35,8 +35,8 @@ void check_step_count(const SimulationSettings& settings, double start) {
     shortest = std::min(shortest, change.step);
   }
   throw InputError(
-      fmt::format("step {:.3g} s takes {:.3g} steps until {:g} s; at most {:g} "
-                  "can be taken",
+      fmt::format("step {:.3g} s needs {:.3g} steps until {:g} s; at most {:g} "
+                  "are possible",
                   shortest, count, settings.end_time, kMostStepsOfRun));
 }
 
@@ -69,8 +69,8 @@ void add_samples(const ControllerModel& controller, double start,
       (end - std::max(start, controller.offset)) / controller.period;
   if (count > kMostSamples || controller.period < kFewestSame * same) {
     throw InputError(fmt::format(
-        "controller '{}': a sample every {:.3g} s takes {:.3g} samples from "
-        "{:g} s to {:g} s; at most {:g}, {:.2g} s apart, can be taken",
+        "controller '{}': a sample every {:.3g} s needs {:.3g} samples from "
+        "{:g} s to {:g} s; at most {:g}, {:.2g} s apart, are possible",
         controller.name, controller.period, count, start, end, kMostSamples,
         kFewestSame * same));
   }

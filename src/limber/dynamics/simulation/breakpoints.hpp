@@ -16,8 +16,9 @@ struct Breakpoint {
   bool is_sample = false;  ///< a controller is sampled
 };
 
-/// Largest difference of times near t that are the same, but for the round-off
-/// of sums of times like t and `start`: eight units in the last place [s].
+/// Largest difference of times near t that are the same, except for the
+/// round-off of sums of times like t and `start`: eight units in the last place
+/// [s].
 [[nodiscard]] double find_same_time(double t, double start);
 
 /// The first time that is not the same as t: just after what jumps there [s].

@@ -38,7 +38,7 @@ void call(const ControllerModel& controller, double t, const std::string& what,
   } catch (const std::exception& error) {
     fail(controller, t, what + error.what());
   } catch (...) {
-    fail(controller, t, what + "an exception without words");
+    fail(controller, t, what + "an exception without a message");
   }
 }
 

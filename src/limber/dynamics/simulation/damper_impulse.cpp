@@ -311,10 +311,10 @@ std::string describe(const DamperImpulse& impulse, double t, double h) {
       impulse.coupler.empty() ? std::string("in modes")
                               : fmt::format("at coupler '{}'", impulse.coupler);
   return fmt::format(
-      "at t = {:.9g} s bodies move in ways that dampers, most {}, end within "
-      "{:.2g} s, far less than the step of {:.3g} s: an impulse brought their "
-      "velocities onto what the dampers allow; it took {:.3g} J of {:.3g} J "
-      "in the relative motion of the bodies joined there{}",
+      "at t = {:.9g} s dampers, mainly {}, stop a relative motion of bodies "
+      "within {:.2g} s, far less than the step of {:.3g} s: an impulse set "
+      "their velocities to what the dampers allow; it dissipated {:.3g} J of "
+      "the {:.3g} J in the relative motion of the bodies joined there{}",
       t, where, impulse.relaxation, h, impulse.dissipated, impulse.kinetic,
       impulse.work != 0.0
           ? fmt::format(", and drives did {:.3g} J of work", impulse.work)

@@ -30,7 +30,8 @@ struct DamperImpulse {
 ///            it, the relative velocity falls by 3 (h mu)^8 of itself, less
 ///            than the error of any scheme here; where it does not, to
 ///            (8 / (h mu))^3 of itself, which is the inelastic impact. M v
-///            changes by impulses of dampers only, so that momenta are kept.
+///            changes by impulses of dampers only, so that momenta are
+///            conserved.
 /// Source     (M + h C) v+ = M v is implicit Euler for the dampers; the power
 ///            of X is Limber's own. docs/decisions/0009
 /// Limits     laws are linearised about the initial velocities; sliding

@@ -5,7 +5,7 @@
 
 namespace limber::dynamics {
 
-/// The error that each step of a run may have.
+/// The error allowed in each step of a run.
 class ErrorBudget {
  public:
   /// The same for every step [m].
@@ -13,9 +13,10 @@ class ErrorBudget {
   /// Errors of all steps that add up to about `total` [m], although their
   /// number is not known.
   ///
-  /// Equation   after n steps, which reach the share s of the run, a step may
+  /// Equation   after n steps, which reach the fraction s of the run, a step
+  /// may
   ///            err by total max(s / n, 0.03 / (n + 1)): equal steps to the end
-  ///            would be n / s in all, each with its share of the total. The
+  ///            would be n / s in all, each with its fraction of the total. The
   ///            second term serves a run that begins with short steps.
   /// Limits     The sum is about `total` if the length of steps is even, and
   ///            at most ln(n) times that: steps that get shorter than all

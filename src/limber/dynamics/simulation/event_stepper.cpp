@@ -235,14 +235,14 @@ void EventStepper::pass_all_at_end(SystemState& state, double h) {
 
 // Repeats the attempted step up to a fraction of it. @returns whether it took
 // any time
-bool EventStepper::advance_to(double share, SystemState& state) {
+bool EventStepper::advance_to(double fraction, SystemState& state) {
   take_back(state);
-  if (!(share > kSameEvent)) {
+  if (!(fraction > kSameEvent)) {
     last_.load_work = last_.dissipated = 0.0;
     last_flows_.clear();
     return false;
   }
-  const double until = share * h_;
+  const double until = fraction * h_;
   advance(state, until, state.t + until);
   return true;
 }
@@ -257,10 +257,10 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   const auto touch = touches_.find_first(before_, state);
   const double limit =
       ends_at_limits_ ? limits_.find_first(before_, state).value_or(1.0) : 1.0;
-  const double share = std::min(
-      {crossing ? crossing->share : 1.0, touch ? touch->share : 1.0, limit});
+  const double fraction = std::min({crossing ? crossing->fraction : 1.0,
+                                    touch ? touch->fraction : 1.0, limit});
   if (cut_ == kMostCut && touch) check_missed_touch(touch->index, state);
-  if (share > 1.0 - kSameEvent || cut_ == kMostCut) {
+  if (fraction > 1.0 - kSameEvent || cut_ == kMostCut) {
     cut_ = 0;
     add_last();
     pass_all_at_end(state, nominal_h);
@@ -270,12 +270,12 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   ++cut_;
   const std::size_t events = events_.size();
   int iterations = 1;
-  if (touch && touch->share == share) {
+  if (touch && touch->fraction == fraction) {
     iterations = settle_touch(*touch, state, nominal_h);
   } else {
-    advance_to(share, state);
+    advance_to(fraction, state);
     add_last();
-    if (crossing && crossing->share == share) {
+    if (crossing && crossing->fraction == fraction) {
       pass(*crossing, state, nominal_h);
     } else {
       observer_.accept(state);
@@ -298,7 +298,7 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
   const double t = state.t;
   take_back(state);
   throw NumericalError(fmt::format(
-      "contact '{}' at t = {:.9g} s: both are {:.3g} m deep in each other "
+      "contact '{}' at t = {:.9g} s: the bodies already overlap by {:.3g} m "
       "where their surfaces first face each other, which would add {:.3g} J",
       model_.pairs[touches_.pair_of(index)].name, t, touch.depth,
       touch.energy));
@@ -311,10 +311,10 @@ void EventStepper::check_missed_touch(std::size_t index, SystemState& state) {
   const double t = state.t;
   cut_ = 0;
   take_back(state);
-  throw NumericalError(fmt::format(
-      "contact '{}': a step to t = {:.9g} s ends deep in a touch that {} cuts "
-      "of steps did not reach",
-      model_.pairs[touches_.pair_of(index)].name, t, kMostCut));
+  throw NumericalError(
+      fmt::format("contact '{}': a step to t = {:.9g} s ends within a contact "
+                  "whose beginning was not found by cutting steps {} times",
+                  model_.pairs[touches_.pair_of(index)].name, t, kMostCut));
 }
 
 // Two bodies deep in each other cannot separate in a step.
@@ -324,9 +324,9 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
   const double t = state.t;
   take_back(state);
   throw NumericalError(fmt::format(
-      "contact '{}' at t = {:.9g} s: both were {:.3g} m deep in each other, "
-      "and their surfaces no longer face each other anywhere; a stiffer "
-      "contact or a lower speed would keep them apart",
+      "contact '{}' at t = {:.9g} s: the bodies overlapped by {:.3g} m, and "
+      "their surfaces no longer face each other anywhere; a stiffer contact or "
+      "a lower speed would prevent this",
       model_.pairs[touches_.pair_of(index)].name, t, depth));
 }
 
@@ -336,16 +336,16 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
 // @returns the number of its repeats
 int EventStepper::settle_touch(const ContactStartObserver::Crossing& crossing,
                                SystemState& state, double nominal_h) {
-  double share = crossing.share;
+  double fraction = crossing.fraction;
   int repeats = 0;
-  while (repeats < kMostRepeats && advance_to(share, state)) {
+  while (repeats < kMostRepeats && advance_to(fraction, state)) {
     ++repeats;
     const double tolerance =
         touches_.find_tolerance(crossing.index, state, nominal_h);
     if (touches_.find_excess(crossing.index, state) <= tolerance) break;
     const auto earlier = touches_.find_first(before_, state);
     if (!earlier) break;
-    share *= std::min(earlier->share, kLeastReduction);
+    fraction *= std::min(earlier->fraction, kLeastReduction);
   }
   const double excess = touches_.find_excess(crossing.index, state);
   const double tolerance =

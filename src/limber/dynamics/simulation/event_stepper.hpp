@@ -16,16 +16,18 @@
 
 namespace limber::dynamics {
 
-/// Takes steps, ends them at events of couplers and where pairs touch or part,
-/// with a tolerance also where drives reach or leave their effort limit, and
-/// updates their memory. Without switches and angles it adds no cost to a step.
+/// Takes steps, ends them at events of couplers and where contact begins or
+/// ends, with a tolerance also where drives reach or leave their effort limit,
+/// and updates their memory. Without switches and angles it adds no cost to a
+/// step.
 ///
 /// Equation   a switch's effect on a law is constant within a step, so that the
 ///            motion is smooth, and changes where the step is cut.
 /// Source     events by the cubic through the values and rates at both ends of
 ///            a step [@hairer1993, sec. II.6], whose error is smaller than that
 ///            of the integrators.
-/// Limits     a joint must turn less than half a turn a step; two sign changes
+/// Limits     a joint must rotate by less than half a turn a step; two sign
+/// changes
 ///            of one switch within a step are not detected; after 32 successive
 ///            steps cut by events, further events are moved to a step's end.
 class EventStepper {
@@ -117,7 +119,7 @@ class EventStepper {
   void check_missed_touch(std::size_t index, SystemState& state);
   int settle_touch(const ContactStartObserver::Crossing& crossing,
                    SystemState& state, double nominal_h);
-  bool advance_to(double share, SystemState& state);
+  bool advance_to(double fraction, SystemState& state);
   void add_last();
 
   const SystemModel& model_;

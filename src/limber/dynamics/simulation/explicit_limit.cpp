@@ -23,7 +23,7 @@ namespace {
 constexpr double kMostPartsOfStep = 1e3;
 // Preferred fraction of the longest stable step [-]. Runge-Kutta then
 // dissipates 4e-6 of the fastest motion's energy a step.
-constexpr double kAccurateShare = 0.1;
+constexpr double kAccurateFraction = 0.1;
 // Amplification per step below which a run does not blow up, approximately [-].
 constexpr double kMostEnergyGrowth = 1.05;
 
@@ -141,54 +141,54 @@ std::string describe(const SystemModel& model, const SystemState& state,
                      IntegratorKind scheme, double step, double longest) {
   return fmt::format(
       "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
-      "{:.3g} s, because of body '{}' and what holds it; ",
+      "{:.3g} s, because of body '{}' and its couplers; ",
       to_string(scheme), longest, step / longest, step,
       model.bodies[find_fastest_body(model, state)].name);
 }
 constexpr const char* kAdvice =
-    "ask for a step near that, or take an implicit integrator";
+    "use a step near that, or an implicit integrator";
 
 SimulationSettings limit_central(const SystemModel& model,
                                  const SystemState& state,
-                                 const SimulationSettings& asked,
+                                 const SimulationSettings& requested,
                                  SimulationStatistics& statistics) {
-  const double step = find_longest_step(asked);
+  const double step = find_longest_step(requested);
   statistics.stable_step = find_stable_step(model, state);
-  const double longest = kStableShare * statistics.stable_step;
+  const double longest = kStableFraction * statistics.stable_step;
   if (step > kMostPartsOfStep * longest) {
-    throw InputError(describe(model, state, asked.integrator, step, longest) +
-                     kAdvice);
+    throw InputError(
+        describe(model, state, requested.integrator, step, longest) + kAdvice);
   }
-  return divide(asked, longest);
+  return divide(requested, longest);
 }
 
 SimulationSettings limit_where_it_grows(const SystemModel& model,
                                         const SystemState& state,
-                                        const SimulationSettings& asked,
+                                        const SimulationSettings& requested,
                                         SimulationStatistics& statistics) {
-  const double step = find_longest_step(asked);
-  SimulationSettings settings = asked;
+  const double step = find_longest_step(requested);
+  SimulationSettings settings = requested;
   settings.step = step;
-  if (find_growth(model, state, settings) < kMostEnergyGrowth) return asked;
-  statistics.stable_step = find_stable_step(model, state, asked.integrator);
-  const double longest = kStableShare * statistics.stable_step;
-  if (!(step > longest)) return asked;
+  if (find_growth(model, state, settings) < kMostEnergyGrowth) return requested;
+  statistics.stable_step = find_stable_step(model, state, requested.integrator);
+  const double longest = kStableFraction * statistics.stable_step;
+  if (!(step > longest)) return requested;
   if (step > kMostPartsOfStep * longest) {
     statistics.warnings.push_back(
-        describe(model, state, asked.integrator, step, longest) +
+        describe(model, state, requested.integrator, step, longest) +
         "steps are not divided so often, and may blow up; " + kAdvice);
-    return asked;
+    return requested;
   }
-  const double accurate = kAccurateShare * statistics.stable_step;
+  const double accurate = kAccurateFraction * statistics.stable_step;
   const double taken =
       std::min(longest, std::max(accurate, step / kMostPartsOfStep));
   statistics.warnings.push_back(fmt::format(
-      "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
-      "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
-      to_string(asked.integrator), longest,
+      "{} is stable up to {:.3g} s at the start, because of body '{}' and its "
+      "couplers: steps of {:.3g} s are divided, into {:.0f} parts",
+      to_string(requested.integrator), longest,
       model.bodies[find_fastest_body(model, state)].name, step,
       std::ceil(step / taken * (1.0 - 1e-12))));
-  return divide(asked, taken);
+  return divide(requested, taken);
 }
 
 // Steps are limited by the stiffness that acts at the start.
@@ -201,7 +201,7 @@ void warn_of_pairs(const SystemModel& model, const SystemState& state,
     if (!terms.pairs.responses[i].points().empty()) continue;
     statistics.warnings.push_back(fmt::format(
         "pair '{}' has no points at the start: its stiffness is not known to "
-        "{}, whose steps may be too long where it gets some",
+        "{}, whose steps may be too long once it has some",
         model.pairs[i].name, to_string(scheme)));
   }
 }
@@ -230,18 +230,18 @@ double find_growth(const SystemModel& model, const SystemState& state,
 
 SimulationSettings limit_step(const SystemModel& model,
                               const SystemState& state,
-                              const SimulationSettings& asked,
+                              const SimulationSettings& requested,
                               SimulationStatistics& statistics) {
-  warn_of_pairs(model, state, asked.integrator, statistics);
-  switch (traits_of(asked.integrator).limit) {
+  warn_of_pairs(model, state, requested.integrator, statistics);
+  switch (traits_of(requested.integrator).limit) {
     case StepLimit::stability:
-      return limit_central(model, state, asked, statistics);
+      return limit_central(model, state, requested, statistics);
     case StepLimit::growth:
-      return limit_where_it_grows(model, state, asked, statistics);
+      return limit_where_it_grows(model, state, requested, statistics);
     case StepLimit::none:
       break;
   }
-  return asked;
+  return requested;
 }
 
 }  // namespace limber::dynamics

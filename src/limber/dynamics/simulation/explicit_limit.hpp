@@ -29,7 +29,7 @@ namespace limber::dynamics {
 /// @throws InputError for central differences that need more parts.
 [[nodiscard]] SimulationSettings limit_step(const SystemModel& model,
                                             const SystemState& state,
-                                            const SimulationSettings& asked,
+                                            const SimulationSettings& requested,
                                             SimulationStatistics& statistics);
 
 /// Approximate factor by which a step of `settings.step` amplifies small

@@ -22,7 +22,7 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kMostStepTurn = 1.0;  // of a body within a step [rad]
+constexpr double kMostStepRotation = 1.0;  // of a body within a step [rad]
 
 // Whether long steps are unstable and not always divided.
 bool may_be_unstable(IntegratorKind integrator) {
@@ -39,7 +39,7 @@ std::string describe_stability(const SystemModel& model,
   if (integrator == IntegratorKind::splitting) {
     return fmt::format(
         "the step of {:.3g} s may be too long for the couplers, which "
-        "splitting takes explicitly; one of {:.3g} s resolves all motion",
+        "splitting treats explicitly; one of {:.3g} s resolves all motion",
         h, stable);
   }
   return fmt::format(
@@ -57,15 +57,15 @@ std::string describe_overpowered(const SystemModel& model,
   return observer.find_overpowered().value_or("");
 }
 
-std::string describe_turn(const SystemModel& model, const SystemState& state,
-                          double h) {
+std::string describe_rotation(const SystemModel& model,
+                              const SystemState& state, double h) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double turn = h * state.bodies[b].w_WB_B.norm();
-    if (turn > kMostStepTurn) {
+    const double rotation = h * state.bodies[b].w_WB_B.norm();
+    if (rotation > kMostStepRotation) {
       return fmt::format(
-          "body '{}' turns at {:.4g} rad/s, {:.3g} rad within a step of {:.3g} "
-          "s",
-          model.bodies[b].name, state.bodies[b].w_WB_B.norm(), turn, h);
+          "body '{}' rotates at {:.4g} rad/s, {:.3g} rad within a step of "
+          "{:.3g} s",
+          model.bodies[b].name, state.bodies[b].w_WB_B.norm(), rotation, h);
     }
   }
   return {};
@@ -174,7 +174,7 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
     const auto soft =
         describe_softening(model.bodies[b], state.bodies[b].w_WB_B);
     if (soft) return *soft;
-    const auto bent = describe_large_turn(model, state, b);
+    const auto bent = describe_large_rotation(model, state, b);
     if (bent) return *bent;
   }
   try {
@@ -183,7 +183,7 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
   } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
     // A joint whose axis is reversed names itself.
   }
-  return describe_turn(model, state, h);
+  return describe_rotation(model, state, h);
 }
 
 std::string find_start_clash(const SystemModel& model, const SystemState& state,
@@ -200,9 +200,9 @@ std::string find_start_clash(const SystemModel& model, const SystemState& state,
     most = power;
     clash = fmt::format(
         "bodies start with velocities that coupler '{}' does not allow: its "
-        "damper takes {:.3g} W at the start, where their relative motion has "
-        "{:.3g} J; let them start with velocities that fit, or with less "
-        "damping there",
+        "damper dissipates {:.3g} W at the start, and their relative motion "
+        "has {:.3g} J; start with compatible velocities, or with less damping "
+        "there",
         model.couplers[c].name, power, relative);
   }
   return clash;

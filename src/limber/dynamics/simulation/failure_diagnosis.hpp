@@ -38,7 +38,7 @@ namespace limber::dynamics {
                                       const SystemState& state);
 
 /// Location of the largest part of the stored energy: the motion or a mode of a
-/// body, relative to the mass centre of what it is free with, or a coupler, as
+/// body, relative to the mass centre of its free group, or a coupler, as
 /// in "mode 3 (812 Hz) of body 'link'".
 [[nodiscard]] std::string find_most_energy(const SystemModel& model,
                                            const SystemState& state);

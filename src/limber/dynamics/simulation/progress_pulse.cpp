@@ -20,14 +20,14 @@ void ProgressPulse::report(double fraction, const Progress& progress) {
   last_ = Clock::now();
   try {
     limber::report(progress, "simulating", fraction);
-  } catch (const Interrupted& asked) {
-    if (!asked_) asked_ = last_;
-    words_ = asked.what();
+  } catch (const Interrupted& requested) {
+    if (!requested_) requested_ = last_;
+    words_ = requested.what();
   }
 }
 
 bool ProgressPulse::ends_within_step() const {
-  return asked_ && Clock::now() - *asked_ > kLongestWait;
+  return requested_ && Clock::now() - *requested_ > kLongestWait;
 }
 
 }  // namespace limber::dynamics

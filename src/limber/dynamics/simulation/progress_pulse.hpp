@@ -19,7 +19,7 @@ class ProgressPulse {
   void report(double fraction, const Progress& progress);
 
   /// Whether an end is requested, which takes place between two steps.
-  [[nodiscard]] bool ends_here() const { return asked_.has_value(); }
+  [[nodiscard]] bool ends_here() const { return requested_.has_value(); }
   /// Whether it takes place within a step: three seconds after the request.
   [[nodiscard]] bool ends_within_step() const;
   /// Message of the request to end.
@@ -29,7 +29,7 @@ class ProgressPulse {
   using Clock = std::chrono::steady_clock;
 
   std::optional<Clock::time_point> last_;
-  std::optional<Clock::time_point> asked_;
+  std::optional<Clock::time_point> requested_;
   std::string words_;
 };
 

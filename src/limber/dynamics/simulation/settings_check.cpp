@@ -46,8 +46,8 @@ void check_step(const std::string& what, double step, double start) {
   const double shortest = kShortest * std::abs(start);
   if (step >= shortest) return;
   throw InputError(fmt::format(
-      "{} is {:g} s, which numbers do not resolve at the start, {:g} s; "
-      "expected at least {:.2g} s, or a start nearer to zero",
+      "{} is {:g} s, which double precision does not resolve at the start, "
+      "{:g} s; expected at least {:.2g} s, or a start nearer to zero",
       what, step, start, shortest));
 }
 
@@ -76,8 +76,8 @@ void refuse_hidden_memory(const SystemModel& model, const std::string& why) {
   const ControllerModel* controller = find_hidden_memory(model);
   if (controller == nullptr) return;
   throw InputError(
-      fmt::format("controller '{}' keeps something that is not in its memory, "
-                  "so that its samples cannot be repeated, but {}",
+      fmt::format("controller '{}' keeps data outside its memory, so that its "
+                  "samples cannot be repeated, but {}",
                   controller->name, why));
 }
 

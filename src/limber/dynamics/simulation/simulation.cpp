@@ -51,22 +51,23 @@ void simulate(const SystemModel& model, SystemState& state,
 }
 
 void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& asked, const Observer& observer,
+              const SimulationSettings& requested, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
               const Continuation& continuation, const Followed& followed,
               RunRecord& record) {
-  check_settings(model, state, asked);
-  SimulationSettings settings = asked;
-  settings.passes = choose_passes(model, asked, state.t);
+  check_settings(model, state, requested);
+  SimulationSettings settings = requested;
+  settings.passes = choose_passes(model, requested, state.t);
   const bool is_verified =
       settings.tolerance > 0.0 && settings.passes == TolerancePasses::verified;
   if (is_verified) {
-    refuse_hidden_memory(model,
-                         "a verified tolerance takes several passes; take one "
-                         "pass, or a step");
+    refuse_hidden_memory(
+        model,
+        "a verified tolerance needs several passes; use one pass, or a step");
   }
   if (continuation.keeper.keep || continuation.from) {
-    refuse_hidden_memory(model, "a checkpoint must continue alike");
+    refuse_hidden_memory(model,
+                         "a run must continue identically from a checkpoint");
   }
   const Stopwatch stopwatch(statistics.seconds);
   const auto warn = [&] {

@@ -44,12 +44,13 @@ double choose_refinement(const SimulationSettings& settings) {
 
 struct Simulator::Parts {
   Parts(const SystemModel& its_model, const SystemState& start,
-        const SimulationSettings& asked)
+        const SimulationSettings& requested)
       : model(its_model),
         state(start),
-        settings(check(model, state, asked, statistics)),
+        settings(check(model, state, requested, statistics)),
         limit(model),
-        loop(model, settings, state, statistics, choose_refinement(asked), {},
+        loop(model, settings, state, statistics, choose_refinement(requested),
+             {},
              [this](const SystemState& at) {
                limit.check(at, statistics.warnings);
              }),
@@ -72,7 +73,7 @@ struct Simulator::Parts {
   // Warnings and checks at the end of a whole run.
   void judge() {
     RunRecord record;
-    loop.tell(record);
+    loop.store(record);
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
     check_energy(settings.integrator, record.energy);
   }
@@ -157,7 +158,8 @@ const SimulationStatistics& Simulator::statistics() const {
 }
 
 Checkpoint Simulator::save() {
-  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  refuse_hidden_memory(parts_->model,
+                       "a run must continue identically from a checkpoint");
   Archive archive;
   parts_->limit.exchange_memory(archive);
   std::vector<double> numbers = parts_->loop.save(parts_->state).numbers;
@@ -166,7 +168,8 @@ Checkpoint Simulator::save() {
 }
 
 void Simulator::restore(const Checkpoint& checkpoint) {
-  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  refuse_hidden_memory(parts_->model,
+                       "a run must continue identically from a checkpoint");
   Archive archive(checkpoint.numbers);
   parts_->limit.exchange_memory(archive);
   Checkpoint inner{checkpoint.time, {}};

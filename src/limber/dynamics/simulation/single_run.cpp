@@ -43,10 +43,10 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
   try {
     loop.run(state, visit, job.progress, job.continuation.keeper);
   } catch (const NumericalError&) {
-    loop.tell(job.record);
+    loop.store(job.record);
     throw;
   }
-  loop.tell(job.record);
+  loop.store(job.record);
 }
 
 // A run without steps: all motion is known in closed form.
@@ -64,7 +64,7 @@ void pass_time(const SystemModel& model, SystemState& state,
     peaks.include(now);
     if (mark.is_jump) peaks.cross_jump(now);
   }
-  peaks.tell(job.record.peaks, job.record.places, job.record.envelopes);
+  peaks.store(job.record.peaks, job.record.places, job.record.envelopes);
   for (const double t : times) {
     state.t = t;
     job.check(state);
@@ -94,9 +94,9 @@ double choose_longest_look(const ExactModes& exact, double start, double end,
   const double least = (end - start) / kMostLooks;
   if (wanted >= least) return wanted;
   warnings.push_back(fmt::format(
-      "modes in closed form are looked at for peaks every {:.2g} s, {:g} times "
-      "in all, where the fastest that moves asks for every {:.2g} s: peaks of "
-      "probes may be low; a shorter time, or fewer modes, would show them",
+      "peaks of modes in closed form are sampled every {:.2g} s, {:g} times in "
+      "all; the fastest mode that moves needs {:.2g} s: peaks of probes may be "
+      "too low; a shorter run or fewer modes would resolve them",
       least, kMostLooks, wanted));
   return least;
 }

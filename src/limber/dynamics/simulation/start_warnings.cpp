@@ -166,8 +166,8 @@ void add_period_warning(const SystemModel& model,
   }
   if (worst == nullptr) return;
   statistics.warnings.push_back(fmt::format(
-      "{} has a period of {:.3g} s, which steps of {:.3g} s do not follow; "
-      "take steps of at most {:.2g} s, or a tolerance",
+      "{} has a period of {:.3g} s, which steps of {:.3g} s do not follow; use "
+      "steps of at most {:.2g} s, or a tolerance",
       worst->name, worst->period, longest, worst->period / kGoodSteps));
 }
 

@@ -17,8 +17,8 @@ constexpr double kSafety = 0.8;
 constexpr double kWorthGrowing = 1.5;
 constexpr double kMostGrowth = 4.0;
 constexpr double kMostShrinking = 0.1;
-constexpr double kMostTurn = 1.0;     // [rad]
-constexpr double kSmallShare = 1e-3;  // of a body's size, for differences
+constexpr double kMostRotation = 1.0;    // [rad]
+constexpr double kSmallFraction = 1e-3;  // of a body's size, for differences
 
 VectorX find_accelerations(const SystemModel& model, const SystemState& state,
                            Side side) {
@@ -29,7 +29,7 @@ VectorX find_accelerations(const SystemModel& model, const SystemState& state,
   return a;
 }
 
-// In which no body moves by more than a small share of its size.
+// In which no body moves by more than a small fraction of its size.
 double find_short_time(const SystemModel& model, const SystemState& state) {
   const std::vector<Vector3> drifts = find_drifts(model, state);
   double fastest = 0.0;  // [1/s]
@@ -39,7 +39,7 @@ double find_short_time(const SystemModel& model, const SystemState& state) {
     fastest = std::max(
         fastest, (at.v_WB_W - drifts[b]).norm() / reach + at.w_WB_B.norm());
   }
-  return kSmallShare / fastest;
+  return kSmallFraction / fastest;
 }
 
 // The state after a time in which the accelerations hardly change.
@@ -60,14 +60,14 @@ StepControl::StepControl(const ErrorBudget& budget, double longest,
                          double refinement)
     : budget_(budget),
       longest_(refinement * longest),
-      most_turn_(refinement * kMostTurn),
+      most_rotation_(refinement * kMostRotation),
       h_(longest_) {}
 
 double StepControl::propose(const SystemState& state, double left) const {
   double h = std::min(h_, longest_);
   for (const BodyState& body : state.bodies) {
     const double spin = body.w_WB_B.norm();
-    if (spin * h > most_turn_) h = most_turn_ / spin;
+    if (spin * h > most_rotation_) h = most_rotation_ / spin;
   }
   // Two equal steps instead of a full one and a short one.
   if (h >= left) return left;

@@ -9,7 +9,7 @@
 
 namespace limber::dynamics {
 
-/// Chooses the lengths of steps such that each has the error that it may have.
+/// Chooses the lengths of steps such that each has its allowed error.
 ///
 /// Equation   the error of a step of a second-order scheme grows as h^3, so
 ///            that the next step is h cbrt(0.8 allowed / error)
@@ -51,9 +51,9 @@ class StepControl {
 
  private:
   ErrorBudget budget_;
-  double longest_;    // [s]
-  double most_turn_;  // [rad]
-  double h_;          // [s]
+  double longest_;        // [s]
+  double most_rotation_;  // [rad]
+  double h_;              // [s]
   bool was_rejected_ = false;
 };
 

@@ -17,7 +17,7 @@
 namespace limber::dynamics {
 namespace {
 
-// Number of steps of at most `longest`, but for the rounding of times.
+// Number of steps of at most `longest`, except for the rounding of times.
 long count_parts(double from, double to, double longest) {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double span =
@@ -35,11 +35,11 @@ constexpr long kFewestSteps = 32;
 constexpr double kMostWork = 4e6;  // steps and solves, times unknowns
 
 // Errors of an oscillation's steps add up to twice their sum, or a little more.
-constexpr double kBudgetShare = 0.5;  // of the tolerance
+constexpr double kBudgetFraction = 0.5;  // of the tolerance
 
 ErrorBudget make_budget(const SimulationSettings& settings, double start) {
   if (settings.passes != TolerancePasses::verified) {
-    return ErrorBudget::in_all(kBudgetShare * settings.tolerance,
+    return ErrorBudget::in_all(kBudgetFraction * settings.tolerance,
                                settings.end_time - start);
   }
   return ErrorBudget::each(settings.tolerance);
@@ -87,8 +87,8 @@ Losses TimeLoop::losses() const {
 
 void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   archive(state, has_started_, next_, part_, parts_, origin_, h_, at_jump_,
-          depth_, shares_, failure_, clash_, output_, visits_, refreshed_steps_,
-          refreshed_solves_);
+          depth_, fractions_, failure_, clash_, output_, visits_,
+          refreshed_steps_, refreshed_solves_);
   stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   steps_.exchange_memory(archive);
@@ -152,7 +152,7 @@ void TimeLoop::keep_checkpoint(const CheckpointKeeper& keeper) {
 
 // Fraction of the work that is done at a time; of the time, if the number of
 // steps depends on a tolerance.
-double TimeLoop::find_share(double t) const {
+double TimeLoop::find_fraction(double t) const {
   const double end = settings_.end_time;
   if (settings_.tolerance > 0.0) return (t - start_) / (end - start_);
   return count_steps(settings_, start_, t) /
@@ -164,7 +164,7 @@ bool TimeLoop::is_sound(const SystemState& state) {
   try {
     return !step_observer_.has_too_much(state);
   } catch (const NumericalError&) {
-    return true;  // as of a joint whose axis is reversed, which is a cause
+    return true;  // for example a reversed joint axis, which is a cause
   }
 }
 
@@ -190,12 +190,11 @@ void TimeLoop::inspect(const SystemState& state) {
                            ? "a smaller step may help"
                            : "a smaller step or implicit-euler may help";
   fail(state, h_,
-       fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
-                   "most in {}, where the start and the loads account for "
-                   "{:.3g} J; {}",
-                   state.t, excess->stored, find_most_energy(model_, state),
-                   excess->accounted,
-                   is_early && !clash_.empty() ? clash_ : advice));
+       fmt::format(
+           "the motion blows up at t = {:.9g} s: {:.3g} J are stored, most in "
+           "{}, but the start and the loads supplied only {:.3g} J; {}",
+           state.t, excess->stored, find_most_energy(model_, state),
+           excess->accounted, is_early && !clash_.empty() ? clash_ : advice));
 }
 
 // Energies that blow up are the cause of other failures.
@@ -231,8 +230,8 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
                     stepper_.flows());
 }
 
-void TimeLoop::tell(RunRecord& record) {
-  peaks_.tell(record.peaks, record.places, record.envelopes);
+void TimeLoop::store(RunRecord& record) {
+  peaks_.store(record.peaks, record.places, record.envelopes);
   record.energy = step_observer_.find_energy();
   record.contacts = contacts_.find_records();
   record.steps = steps_;
@@ -241,9 +240,9 @@ void TimeLoop::tell(RunRecord& record) {
   contacts_.add_warnings(statistics_.warnings);
   if (const auto pair = stepper_.take_excess()) {
     statistics_.warnings.push_back(fmt::format(
-        "contact '{}': a step got 1000 parts for the impacts in it, and its "
-        "rest was taken at once: their restitution may be wrong; take shorter "
-        "steps, softer contacts or fewer impact_steps",
+        "contact '{}': a step was divided into 1000 parts for the impacts in "
+        "it, and its remainder was taken in one: their restitution may be "
+        "wrong; use shorter steps, softer contacts or fewer impact_steps",
         model_.pairs[*pair].name));
   }
 }
@@ -403,12 +402,12 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   if (!is_adaptive()) {
     take_planned_step(state, progress);
   } else if (!take_free_step(state, visit)) {
-    return heed_within_step(state, progress);
+    return check_stop_within_step(state, progress);
   }
   if (is_look_due(state, ++statistics_.steps)) inspect(state);
   check(state);
   if (part_ == parts_) leave_breakpoint(state, visit);
-  tell_progress(state, progress);
+  report_progress(state, progress);
   if (is_refresh_due()) {
     refresh();
     if (keeper.keep) hold_checkpoint(state, keeper);
@@ -418,15 +417,15 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   if (next_ < breakpoints_.size() && pulse_.ends_here()) end_here(state);
 }
 
-void TimeLoop::tell_progress(const SystemState& state,
-                             const Progress& progress) {
-  if (pulse_.is_due()) pulse_.report(find_share(state.t), progress);
+void TimeLoop::report_progress(const SystemState& state,
+                               const Progress& progress) {
+  if (pulse_.is_due()) pulse_.report(find_fraction(state.t), progress);
 }
 
 // After a part of a step, or an attempt that must be repeated.
-void TimeLoop::heed_within_step(const SystemState& state,
-                                const Progress& progress) {
-  tell_progress(state, progress);
+void TimeLoop::check_stop_within_step(const SystemState& state,
+                                      const Progress& progress) {
+  report_progress(state, progress);
   if (pulse_.ends_within_step()) end_here(state);
 }
 

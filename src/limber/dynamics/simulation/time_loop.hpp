@@ -63,7 +63,7 @@ class TimeLoop {
            const CheckpointKeeper& keeper);
 
   /// Advances `state` to t [s], at most the end time, and ends a step there;
-  /// ends after the current step once `stops` says so.
+  /// ends after the current step once `stops` returns true.
   /// @param stops called before every step
   /// @returns whether t was reached
   /// @throws NumericalError as run() does.
@@ -82,7 +82,7 @@ class TimeLoop {
 
   /// Adds the results of monitoring all steps so far: peaks, energy, contacts
   /// and warnings.
-  void tell(RunRecord& record);
+  void store(RunRecord& record);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -104,8 +104,9 @@ class TimeLoop {
   void visit_output(const SystemState& state, const Losses& losses,
                     const Visit& visit);
   void take_planned_step(SystemState& state, const Progress& progress);
-  void tell_progress(const SystemState& state, const Progress& progress);
-  void heed_within_step(const SystemState& state, const Progress& progress);
+  void report_progress(const SystemState& state, const Progress& progress);
+  void check_stop_within_step(const SystemState& state,
+                              const Progress& progress);
   [[noreturn]] void end_here(const SystemState& state) const;
   [[nodiscard]] const Oscillation* find_oscillation(double t) const;
   [[nodiscard]] std::string describe_short_steps(
@@ -124,7 +125,7 @@ class TimeLoop {
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);
   void halve(const SystemState& state, double h, const std::string& why);
-  void count_share(const SystemState& state);
+  void count_fraction(const SystemState& state);
   void check_budget(const SystemState& state, double h);
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
@@ -137,7 +138,7 @@ class TimeLoop {
   void refresh();
   void hold_checkpoint(SystemState& state, const CheckpointKeeper& keeper);
   void keep_checkpoint(const CheckpointKeeper& keeper);
-  [[nodiscard]] double find_share(double t) const;
+  [[nodiscard]] double find_fraction(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);
   [[nodiscard]] bool is_sound(const SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
@@ -180,7 +181,7 @@ class TimeLoop {
   bool at_jump_ = false;      // a load jumped at the last breakpoint
   bool inputs_jump_ = false;  // where the current step ends
   int depth_ = 0;             // number of current halvings of steps
-  long shares_ = 0;           // number of parts of halved steps so far
+  long fractions_ = 0;        // number of parts of halved steps so far
   std::string failure_;       // cause of the last halving
   std::string clash_;         // message on initial velocities against dampers
   std::size_t output_ = 0;    // next of outputs_

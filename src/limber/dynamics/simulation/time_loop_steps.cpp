@@ -44,12 +44,12 @@ std::string TimeLoop::describe_failure(const SystemState& state) const {
 void TimeLoop::check_budget(const SystemState& state, double h) {
   const long steps = statistics_.steps + statistics_.rejected_steps;
   if (budget_.allows_solves(statistics_.linear_solves, steps)) return;
-  fail(state, h,
-       fmt::format("at t = {:.9g} s: {} steps have taken {} linear solves, "
-                   "where 2 or 3 each are usual, and {} halvings; ask for "
-                   "shorter steps; {}",
-                   state.t, steps, statistics_.linear_solves,
-                   statistics_.halved_steps, describe_failure(state)));
+  fail(
+      state, h,
+      fmt::format("at t = {:.9g} s: {} steps needed {} linear solves, where 2 "
+                  "or 3 each are usual, and {} halvings; use shorter steps; {}",
+                  state.t, steps, statistics_.linear_solves,
+                  statistics_.halved_steps, describe_failure(state)));
 }
 
 // Performs a step; if it fails, steps are halved.
@@ -70,14 +70,13 @@ bool TimeLoop::goes_through(const SystemState& state, double h,
 }
 
 // Without a budget, repeated halving could make a run a thousand times longer.
-void TimeLoop::count_share(const SystemState& state) {
-  if (budget_.allows_shares(++shares_, statistics_.steps)) return;
+void TimeLoop::count_fraction(const SystemState& state) {
+  if (budget_.allows_fractions(++fractions_, statistics_.steps)) return;
   fail(state, std::ldexp(h_, -depth_),
-       fmt::format("at t = {:.9g} s: steps of {:.3g} s go through only when "
-                   "they are halved again and again, {} times by now; ask for "
-                   "shorter steps or for a tolerance; {}",
-                   state.t, h_, statistics_.halved_steps,
-                   describe_failure(state)));
+       fmt::format(
+           "at t = {:.9g} s: steps of {:.3g} s succeed only after repeated "
+           "halving, {} times so far; use shorter steps or a tolerance; {}",
+           state.t, h_, statistics_.halved_steps, describe_failure(state)));
 }
 
 void TimeLoop::take_samples(SystemState& state) {
@@ -131,9 +130,9 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
       cause = record_step({h, cause}, state.t - begin);
     }
     // Parts of impacts have limits of their own.
-    const bool is_share = !is_last && !(stepper_.length() < h);
-    if (has_moved && is_share) count_share(state);
-    if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
+    const bool is_fraction = !is_last && !(stepper_.length() < h);
+    if (has_moved && is_fraction) count_fraction(state);
+    if (end - state.t > kSameTime * h_) check_stop_within_step(state, progress);
   }
   state.t = end;
   time_contact(state, statistics_.linear_solves - solves);
@@ -238,8 +237,8 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
     fail(state, h_,
          fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
-                     "steps than most_steps allows, {:.3g} s long by now; ask "
-                     "for a larger tolerance, a shorter time or more steps; {}",
+                     "steps than most_steps allows, now {:.3g} s long; use a "
+                     "larger tolerance, a shorter time or more steps; {}",
                      state.t, settings_.tolerance, h_,
                      describe_short_steps(state)));
   }
@@ -255,7 +254,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   if (!(h_ > least)) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
-                     "step may have asks for steps below {:.3g} s",
+                     "step may have requires steps below {:.3g} s",
                      model_.bodies[stepper_.last().error_body].name, state.t,
                      control_.allowed(), h_));
   }

@@ -172,8 +172,8 @@ class ToleranceLoop {
     if (course_.pass < kMostPasses) return false;
     statistics_.warnings.push_back(fmt::format(
         "after {} passes positions are still uncertain by {:.3g} m, more than "
-        "the tolerance of {:.3g} m: the motion magnifies small errors; a "
-        "shorter time or a larger tolerance can be held",
+        "the tolerance of {:.3g} m: the motion amplifies small errors; use a "
+        "shorter time or a larger tolerance",
         kMostPasses, course_.estimate, settings_.tolerance));
     return true;
   }
@@ -279,7 +279,7 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
                       const Followed& followed, RunRecord& record) {
   ToleranceLoop passes(model, state, settings, progress, statistics,
                        continuation, followed, record);
-  const auto tell = [&] {
+  const auto store = [&] {
     if (!observer) return;
     for (std::size_t i = 0; i < passes.record().states.size(); ++i) {
       observer(passes.record().states[i], passes.record().balances[i]);
@@ -288,10 +288,10 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
   try {
     passes.run(state);
   } catch (const NumericalError&) {
-    tell();
+    store();
     throw;
   }
-  tell();
+  store();
 }
 
 }  // namespace limber::dynamics

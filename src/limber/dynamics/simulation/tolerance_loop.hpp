@@ -7,7 +7,7 @@ namespace limber::dynamics {
 
 /// Which passes a run from time `start` [s] makes to settings.tolerance: those
 /// of the settings, or of `automatic` verified ones if a load or a command
-/// oscillates in the run, and no controller hides what it remembers. Errors of
+/// oscillates in the run, and no controller has hidden memory. Errors of
 /// an oscillation's steps add up in the velocity of what nothing restores: one
 /// pass missed its tolerance by up to 14 times then.
 [[nodiscard]] TolerancePasses choose_passes(const SystemModel& model,

@@ -18,15 +18,15 @@ class WorkBudget {
   explicit WorkBudget(std::size_t bodies)
       : free_solves_(kFreeBodySolves / static_cast<long>(bodies + 1)) {}
 
-  [[nodiscard]] bool allows_shares(long shares, long steps) const {
-    return shares <= kFreeShares + kSharesAStep * steps;
+  [[nodiscard]] bool allows_fractions(long fractions, long steps) const {
+    return fractions <= kFreeFractions + kSharesAStep * steps;
   }
   [[nodiscard]] bool allows_solves(long solves, long steps) const {
     return solves <= free_solves_ + kSolvesAStep * steps;
   }
 
  private:
-  static constexpr long kFreeShares = 1000;
+  static constexpr long kFreeFractions = 1000;
   static constexpr long kSharesAStep = 10;
   static constexpr long kFreeBodySolves = 2'000'000;
   static constexpr long kSolvesAStep = 300;

@@ -33,10 +33,10 @@ void check_size(const std::string& what, const std::string& table,
 void check_rate(const std::string& what, const std::string& value,
                 double rate) {
   if (rate >= 0.0 && std::isfinite(rate)) return;
-  throw InputError(fmt::format(
-      "{}: {} is {:g}; expected a finite number, not negative, which would "
-      "feed energy in",
-      what, value, rate));
+  throw InputError(
+      fmt::format("{}: {} is {:g}; expected a finite number >= 0; a negative "
+                  "one would supply energy",
+                  what, value, rate));
 }
 
 }  // namespace
@@ -96,12 +96,12 @@ void check_reduced(const std::string& what,
   }
   if (reduced.clamped) {
     const Eigen::Index columns = reduced.integrals.P.cols();
-    check_size(what, "what gravity does to its modes",
+    check_size(what, "the effect of gravity on its modes",
                reduced.manifold
                    ? std::min<Eigen::Index>(columns, reduced.mode_count())
                    : columns,
                reduced.mode_count());
-    check_finite(what, "what gravity does to its modes",
+    check_finite(what, "the effect of gravity on its modes",
                  reduced.integrals.P.allFinite());
   }
 }
@@ -111,7 +111,7 @@ void check_level(const std::string& what, const flexbody::ReducedBody& reduced,
   const std::string& gap = reduced.inertia_record.gap;
   if (gap.empty() || fidelity <= Fidelity::uncoupled) return;
   throw InputError(
-      fmt::format("{}: at level {} it cannot be: {}; or choose level uncoupled",
+      fmt::format("{}: level {} is not possible: {}; or choose level uncoupled",
                   what, to_string(fidelity), gap));
 }
 
@@ -151,7 +151,7 @@ void check_manifold(const std::string& what,
       reduced.integrals.P.cols() != reduced.mode_count() + pairs) {
     throw InputError(
         what +
-        ": its saved body lacks what gravity does to the second order of a "
+        ": its saved body lacks the second-order effect of gravity on a "
         "clamped group; reduce its mesh again for level nonlinear");
   }
   if (manifold.Theta_B.rows() != reduced.rows.Phi_B.rows()) {
@@ -191,8 +191,8 @@ void check_elasticity(const std::string& what,
   if (!is_by_frequency || flexbody::is_diagonal_at_rest(elasticity)) return;
   throw InputError(
       what +
-      ": its modes have no frequencies of their own, by which damping ratios "
-      "and Rayleigh damping of stiffness go; give Rayleigh damping of mass");
+      ": its modes are coupled and have no frequencies, which damping ratios "
+      "and Rayleigh damping of stiffness need; give Rayleigh damping of mass");
 }
 
 VectorX check_damping(const std::string& what, const ModalDamping& damping,
@@ -260,10 +260,10 @@ void check_pose(const std::string& what, const Pose& pose) {
   const double error =
       (pose.R.transpose() * pose.R - Matrix3::Identity()).norm();
   if (error <= kRotation && pose.R.determinant() > 0.0) return;
-  throw InputError(fmt::format(
-      "{}: its axes are not those of a rotation: R^T R is off the identity by "
-      "{:.3g}, the determinant is {:.6g}",
-      what, error, pose.R.determinant()));
+  throw InputError(
+      fmt::format("{}: its axes are not those of a rotation: R^T R differs "
+                  "from the identity by {:.3g}, the determinant is {:.6g}",
+                  what, error, pose.R.determinant()));
 }
 
 void check_interface(const std::string& what,
@@ -341,10 +341,10 @@ void check_writes(const std::string& what, const ControllerModel& controller,
       if (std::count(other.writes.begin(), other.writes.end(), input) == 0) {
         continue;
       }
-      throw InputError(fmt::format(
-          "{}: it writes input '{}', which controller '{}' writes, too; one "
-          "input has one writer",
-          what, name, other.name));
+      throw InputError(
+          fmt::format("{}: it writes input '{}', which controller '{}' also "
+                      "writes; an input has only one writer",
+                      what, name, other.name));
     }
   }
 }

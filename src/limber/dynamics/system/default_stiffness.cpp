@@ -11,7 +11,7 @@
 namespace limber::dynamics {
 namespace {
 
-/// Principal flexibilities below this share of the largest are of directions
+/// Principal flexibilities below this fraction of the largest are of directions
 /// that the interface does not define, such as the rotation of a line of nodes
 /// about itself [-].
 constexpr double kUndefined = 1e-12;
@@ -46,31 +46,34 @@ double stiffness_at(double frequency, double mu) {
 }
 
 /// Stiffness and damping of a coupler's translations or rotations.
-struct Hold {
+struct Constraint {
   double stiffness = 0.0;
   double damping = 0.0;
 };
 
-Hold make_hold(double stiffness, double ratio, double mu) {
+Constraint make_constraint(double stiffness, double ratio, double mu) {
   return {stiffness, 2.0 * ratio * std::sqrt(stiffness * mu)};
 }
 
 /// @param flexibility of the stiffer side @param mu mass or moment of inertia
 /// of both sides @param least stiffness by which rigid sides carry their load
-Hold find_hold(const std::optional<double>& stiffness,
-               const std::optional<double>& damping, double flexibility,
-               double mu, double least, double rigid_frequency) {
-  Hold hold;
+Constraint find_constraint(const std::optional<double>& stiffness,
+                           const std::optional<double>& damping,
+                           double flexibility, double mu, double least,
+                           double rigid_frequency) {
+  Constraint constraint;
   if (stiffness) {
-    hold = make_hold(*stiffness, kDampingRatio, mu);
+    constraint = make_constraint(*stiffness, kDampingRatio, mu);
   } else if (std::isfinite(flexibility)) {
-    hold = make_hold(kStiffnessRatio / flexibility, kDampingRatio, mu);
+    constraint =
+        make_constraint(kStiffnessRatio / flexibility, kDampingRatio, mu);
   } else {
-    hold = make_hold(std::max(stiffness_at(rigid_frequency, mu), least),
-                     kRigidDampingRatio, mu);
+    constraint =
+        make_constraint(std::max(stiffness_at(rigid_frequency, mu), least),
+                        kRigidDampingRatio, mu);
   }
-  if (damping) hold.damping = *damping;
-  return hold;
+  if (damping) constraint.damping = *damping;
+  return constraint;
 }
 
 }  // namespace
@@ -92,14 +95,14 @@ joints::JointParameters find_joint_parameters(const CouplerOptions& options,
     return std::min(find_flexibility(side_F, first),
                     find_flexibility(side_M, first));
   };
-  const Hold translation =
-      find_hold(options.translational_stiffness, options.translational_damping,
-                flexibility(0), reduce(side_F.mass, side_M.mass),
-                load.force / (kRigidShare * load.size), rigid_frequency);
-  const Hold rotation =
-      find_hold(options.rotational_stiffness, options.rotational_damping,
-                flexibility(3), reduce(side_F.inertia, side_M.inertia),
-                load.moment / kRigidShare, rigid_frequency);
+  const Constraint translation = find_constraint(
+      options.translational_stiffness, options.translational_damping,
+      flexibility(0), reduce(side_F.mass, side_M.mass),
+      load.force / (kRigidFraction * load.size), rigid_frequency);
+  const Constraint rotation =
+      find_constraint(options.rotational_stiffness, options.rotational_damping,
+                      flexibility(3), reduce(side_F.inertia, side_M.inertia),
+                      load.moment / kRigidFraction, rigid_frequency);
   joints::JointParameters parameters;
   parameters.translational_stiffness = translation.stiffness;
   parameters.rotational_stiffness = rotation.stiffness;

@@ -51,8 +51,8 @@ inline constexpr double kRigidFrequency = 2e4;
 inline constexpr double kLeastRigidFrequency = 1e3;
 /// Allowed displacement of a coupler of two rigid sides under its load:
 /// relative to the sides' size, and in rotation [-, rad].
-inline constexpr double kRigidShare = 1e-4;
-/// Share of critical damping of the two masses on their coupler [-].
+inline constexpr double kRigidFraction = 1e-4;
+/// Fraction of critical damping of the two masses on their coupler [-].
 inline constexpr double kDampingRatio = 0.01;
 /// The same of two rigid sides with the default stiffness, whose vibration no
 /// step resolves: without numerical dissipation only this ends it [-].
@@ -68,7 +68,7 @@ inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 /// where c is the smallest principal flexibility of the interface (translation
 /// or rotation): in every direction the coupler then adds at most 0.5 % to the
 /// flexibility of the stiffer side. If both sides are rigid,
-///   k = max(mu (2 pi f)^2, load / (kRigidShare size)),
+///   k = max(mu (2 pi f)^2, load / (kRigidFraction size)),
 ///   1/mu = 1/mu_F + 1/mu_M,
 /// with mu the mass (or moment of inertia), f `rigid_frequency`, load the force
 /// (or moment) carried and size that of the bodies (or 1 rad). The damping is

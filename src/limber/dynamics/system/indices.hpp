@@ -15,7 +15,7 @@ using PairIndex = TypedIndex<struct PairTag>;
 using InputIndex = TypedIndex<struct InputTag>;
 using ControllerIndex = TypedIndex<struct ControllerTag>;
 
-/// In place of a body: what is fixed in the world.
+/// Instead of a body: the world.
 inline constexpr BodyIndex kWorld = BodyIndex(-1);
 
 }  // namespace limber::dynamics

@@ -17,8 +17,8 @@ std::string find_inertia_problem(const Matrix3& inertia) {
   if (!(I.minCoeff() > 0.0)) return moments + "; expected all > 0";
   if (I[0] + I[1] >= (1.0 - kPrinted) * I[2]) return "";
   return moments +
-         ", the largest more than the sum of the others, which no mass has. "
-         "Look at units, and whether it is about the centre of mass";
+         ", the largest exceeds the sum of the others, which is physically "
+         "impossible. Check its units, and that it is about the centre of mass";
 }
 
 }  // namespace limber::dynamics

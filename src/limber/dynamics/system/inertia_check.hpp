@@ -7,10 +7,10 @@
 
 namespace limber::dynamics {
 
-/// Why no mass has this inertia about its centre, with the principal moments;
-/// empty if one has. The moments of a mass are positive and obey
-/// I1 + I2 >= I3, with equality for flat bodies; rounding of printed digits may
-/// violate it by 1e-3 of the largest.
+/// Why this inertia about the centre of mass is not physical, with the
+/// principal moments; empty if it is. The moments of a mass are positive and
+/// obey I1 + I2 >= I3, with equality for flat bodies; rounding of printed
+/// digits may violate it by 1e-3 of the largest.
 /// @param inertia symmetric [kg m^2]
 [[nodiscard]] std::string find_inertia_problem(const Matrix3& inertia);
 

@@ -15,7 +15,7 @@ namespace {
 
 using flexbody::InterfaceTable;
 
-/// Directions below this share of the largest are not required.
+/// Directions below this fraction of the largest are not required.
 constexpr double kNothing = 1e-12;
 /// Directions this near to each other are the same [rad]: URDF files round
 /// their angles, 1.5708 for pi / 2.
@@ -86,7 +86,7 @@ void check_rotation(const InterfaceTable& table,
   if (required.cols() == 0) return;
   throw InputError(fmt::format(
       "interface '{}': {}, so it has no rotation about {} (mesh axes), which "
-      "is required. Take nodes that span a surface, or require no rotation "
+      "is required. Choose nodes that span a surface, or require no rotation "
       "about {}",
       table.name, describe_nodes(table), describe_directions(required),
       required.cols() == 1 ? "that direction" : "them"));

@@ -28,11 +28,12 @@ void interpolate_body(const BodyState& a, const BodyState& b, const Cubic& c,
       c.value_rate * moved + c.begin_rate * a.v_WB_W + c.end_rate * b.v_WB_W;
   const Vector3 turned = log_rotation(a.quat_WB.conjugate() * b.quat_WB);
   const Vector3 end_rate = right_jacobian_inverse(turned) * b.w_WB_B;
-  const Vector3 turn = c.value * turned + c.begin * a.w_WB_B + c.end * end_rate;
+  const Vector3 rotation =
+      c.value * turned + c.begin * a.w_WB_B + c.end * end_rate;
   const Vector3 rate =
       c.value_rate * turned + c.begin_rate * a.w_WB_B + c.end_rate * end_rate;
-  out.quat_WB = (a.quat_WB * exp_quaternion(turn)).normalized();
-  out.w_WB_B = right_jacobian(turn) * rate;
+  out.quat_WB = (a.quat_WB * exp_quaternion(rotation)).normalized();
+  out.w_WB_B = right_jacobian(rotation) * rate;
 }
 
 void interpolate_vectors(const VectorX& a, const VectorX& adot,
@@ -45,10 +46,10 @@ void interpolate_vectors(const VectorX& a, const VectorX& adot,
 }  // namespace
 
 void interpolate(const SystemModel& model, const SystemState& begin,
-                 const SystemState& end, double share, SystemState& state) {
+                 const SystemState& end, double fraction, SystemState& state) {
   const double h = end.t - begin.t;
-  const Cubic cubic(share, h);
-  state.t = begin.t + share * h;
+  const Cubic cubic(fraction, h);
+  state.t = begin.t + fraction * h;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].has_rigid_motion()) {
       interpolate_body(begin.bodies[b], end.bodies[b], cubic, state.bodies[b]);
@@ -60,7 +61,7 @@ void interpolate(const SystemModel& model, const SystemState& begin,
                       state.eta, state.etadot);
   interpolate_vectors(begin.u_H, begin.udot_H, end.u_H, end.udot_H, cubic,
                       state.u_H, state.udot_H);
-  state.maxwell = begin.maxwell + share * (end.maxwell - begin.maxwell);
+  state.maxwell = begin.maxwell + fraction * (end.maxwell - begin.maxwell);
   state.X_WH = end.X_WH;
   state.memory = begin.memory;
   // An input's line before its last jump is that of the step, too.

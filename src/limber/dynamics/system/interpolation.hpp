@@ -12,9 +12,9 @@ namespace limber::dynamics {
 /// Source     cubic Hermite interpolation [@hairer1993, sec. II.6], rotation on
 ///            the group
 /// Limits     error of fourth order in the step; of velocities, third
-/// @param share fraction of the step, in [0, 1] [-]
+/// @param fraction fraction of the step, in [0, 1] [-]
 /// @param state sized as the ends; its coupler memories become those of `begin`
 void interpolate(const SystemModel& model, const SystemState& begin,
-                 const SystemState& end, double share, SystemState& state);
+                 const SystemState& end, double fraction, SystemState& state);
 
 }  // namespace limber::dynamics

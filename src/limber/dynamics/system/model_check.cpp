@@ -172,7 +172,8 @@ class ModelCheck {
             std::get_if<PathCoordinate>(&transmission.coordinate)) {
       expect(path->points.size() >= 2, "its path has fewer than two points");
       for (const AttachmentIndex point : path->points) {
-        expect(has(model_.attachments, point), "its path has a point nowhere");
+        expect(has(model_.attachments, point),
+               "its path has a point on no frame");
       }
       return;
     }
@@ -183,7 +184,7 @@ class ModelCheck {
                  has(joints::coordinates_of(
                          model_.couplers[index(term.coupler)].law),
                      term.coordinate),
-             "a term of its sum is no coordinate of a joint");
+             "a term of its sum is not a coordinate of a joint");
       expect(std::isfinite(term.factor) && term.factor != 0.0,
              "a factor of its sum is zero or not finite");
     }
@@ -212,7 +213,7 @@ class ModelCheck {
     expect(pair.body_A != pair.body_B, "its two bodies are one");
     for (const BodyIndex body : {pair.body_A, pair.body_B}) {
       expect(body == kWorld || has(model_.bodies, body),
-             "one of its bodies is not there");
+             "one of its bodies does not exist");
     }
     expect(pair.first_memory <= model_.pair_memory_size,
            "its memory is not in the state");
@@ -222,7 +223,7 @@ class ModelCheck {
                     const std::vector<int>& inputs) {
     for (const int input : inputs) {
       require(has(model_.inputs, input), kind, name,
-              "an input of it is not there");
+              "one of its inputs does not exist");
     }
   }
 

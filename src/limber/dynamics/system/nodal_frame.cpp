@@ -27,7 +27,7 @@ double find_size(const flexbody::FullBody& body) {
 
 // The frame rotates with all nodes of the body, or about a line with them.
 void turn_with_body(const flexbody::FullBody& body, NodalFrame& frame) {
-  frame.turns = true;
+  frame.rotates = true;
   frame.turning.resize(static_cast<std::size_t>(body.node_count()));
   std::iota(frame.turning.begin(), frame.turning.end(), 0);
   frame.d_B = body.x_B.colwise() - frame.mean_B;
@@ -112,7 +112,7 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
   const dense::Eigenpairs3 moments = find_moments(frame.d_B, set.moments);
   const double thin = std::pow(kThin * find_size(body), 2);
   if (moments.values[1] > thin) {
-    frame.turns = true;
+    frame.rotates = true;
     frame.turning = frame.nodes;
     frame.y_B = set.moments;
   } else if (moments.values[2] > thin) {
@@ -139,7 +139,7 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
   motion.w_H.setZero();
   motion.spread.setZero();
   motion.line_spread.setZero();
-  if (frame.turns) {
+  if (frame.rotates) {
     calc_rotation(frame, u_H, u, motion);
     Vector3 moment = Vector3::Zero();
     for (std::size_t i = 0; i < frame.turning.size(); ++i) {
@@ -166,11 +166,11 @@ void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
         frame.weights[static_cast<Eigen::Index>(i)] * force_H;
   }
   const Vector3 moment_at_mean = moment_H + motion.arm_H.cross(force_H);
-  const Vector3 turn = motion.spread * moment_at_mean;
-  const Vector3 turn_B = motion.R_HB.transpose() * turn;
+  const Vector3 rotation = motion.spread * moment_at_mean;
+  const Vector3 rotation_B = motion.R_HB.transpose() * rotation;
   for (std::size_t i = 0; i < frame.turning.size(); ++i) {
     const Vector3 y = frame.y_B.col(static_cast<Eigen::Index>(i));
-    force.col(frame.turning[i]) += motion.R_HB * turn_B.cross(y);
+    force.col(frame.turning[i]) += motion.R_HB * rotation_B.cross(y);
   }
   if (!frame.is_line()) return;
   const Vector3 pull = motion.line_spread.transpose() * moment_at_mean;

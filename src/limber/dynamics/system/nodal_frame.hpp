@@ -29,7 +29,7 @@ struct NodalFrame {
   VectorX weights;                   ///< sum to one [-]
   Vector3 mean_B = Vector3::Zero();  ///< undeformed [m]
   Vector3 arm_B = Vector3::Zero();   ///< from the mean to the origin [m]
-  bool turns = false;
+  bool rotates = false;
   std::vector<int> turning;  ///< indices of the nodes that define the rotation
   Matrix3X d_B;              ///< 3 x n of these, undeformed, from the mean [m]
   /// 3 x n first moments, their sum is zero [m]; with the whole body [kg m].

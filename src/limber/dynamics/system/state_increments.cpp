@@ -5,19 +5,19 @@
 
 namespace limber::dynamics {
 
-void displace(const SystemModel& model, const VectorX& increments, double share,
-              SystemState& state) {
+void displace(const SystemModel& model, const VectorX& increments,
+              double fraction, SystemState& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     state.eta.segment(body.offset, body.modes) +=
-        share * mode_rows(body, increments);
+        fraction * mode_rows(body, increments);
     if (!body.has_rigid_motion()) continue;
     BodyState& rigid = state.bodies[b];
-    rigid.p_WB += share * translation_rows(body, increments);
-    const Vector3 turn = share * rotation_rows(body, increments);
-    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(turn)).normalized();
+    rigid.p_WB += fraction * translation_rows(body, increments);
+    const Vector3 rotation = fraction * rotation_rows(body, increments);
+    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(rotation)).normalized();
   }
-  state.u_H += share * nodal_rows(model, increments);
+  state.u_H += fraction * nodal_rows(model, increments);
 }
 
 VectorX find_increments(const SystemModel& model, const SystemState& from,

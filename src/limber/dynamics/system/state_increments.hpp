@@ -7,10 +7,10 @@
 /// A system's configuration and velocities by its unknowns (unknowns.hpp).
 namespace limber::dynamics {
 
-/// Moves a configuration by the fraction `share` [-] of increments: rotations
+/// Moves a configuration by a fraction [-] of increments: rotations
 /// by the exponential, in the body frame.
-void displace(const SystemModel& model, const VectorX& increments, double share,
-              SystemState& state);
+void displace(const SystemModel& model, const VectorX& increments,
+              double fraction, SystemState& state);
 
 /// The increments that displace `from` to `to`, of the same model.
 [[nodiscard]] VectorX find_increments(const SystemModel& model,

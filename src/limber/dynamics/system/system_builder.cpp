@@ -340,8 +340,8 @@ joints::PairPlace SystemBuilder::find_place(AttachmentIndex attachment) const {
   const Attachment& a = find_frame(what, attachment);
   if (a.nodal) {
     throw InputError(
-        fmt::format("{}: frame '{}' is on a body at level full, "
-                    "which has no places of pairs",
+        fmt::format("{}: frame '{}' is on a body at level full, which does not "
+                    "support pairs",
                     what, a.name));
   }
   if (a.body == kWorld) return {a.p_BF, a.Phi_B};

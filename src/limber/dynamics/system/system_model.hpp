@@ -58,7 +58,7 @@ struct FullModel {
   BodyIndex body;
   Eigen::Index first = 0;  ///< index of its 3N entries in SystemState::u_H
   std::shared_ptr<const flexbody::FullBody> mesh;
-  /// Damping acts on the deformation's share in the reduced body's modes.
+  /// Damping acts on the deformation's fraction in the reduced body's modes.
   MatrixX damped_modes;  ///< 3N x m, M Phi [kg^1/2]; no columns if undamped
   VectorX damping;       ///< m [1/s]
   /// Whether forces depend on the mean-axis frame: loads that rotate with the
@@ -113,7 +113,7 @@ struct Transmission {
 };
 
 /// Two bodies, or a body and the world, that may act on each other at points
-/// that come and go.
+/// that appear and disappear.
 struct Pair {
   std::string name;
   BodyIndex body_A = kWorld;

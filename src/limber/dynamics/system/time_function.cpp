@@ -44,9 +44,9 @@ double evaluate_steps(const StepSequence& steps, double t, Side side) {
 double evaluate_table(const Table& table, double t, Side side) {
   if (!is_on(t, table.times.front(), table.times.back(), side)) return 0.0;
   const auto i = static_cast<std::size_t>(find_interval(table.times, t, side));
-  const double share =
+  const double fraction =
       (t - table.times[i]) / (table.times[i + 1] - table.times[i]);
-  return (1.0 - share) * table.values[i] + share * table.values[i + 1];
+  return (1.0 - fraction) * table.values[i] + fraction * table.values[i + 1];
 }
 
 double evaluate_harmonics(const HarmonicSum& sum, double t, Side side) {

@@ -18,7 +18,8 @@ struct Constant {
   double from = 0.0;      ///< [s]
   double until = kNever;  ///< [s]
 };
-/// values[i] on [times[i], times[i+1]); zero before, the last one without end.
+/// values[i] on [times[i], times[i+1]); zero before, the last value from its
+/// time on.
 struct StepSequence {
   std::vector<double> times;   ///< [s]
   std::vector<double> values;  ///< [-]

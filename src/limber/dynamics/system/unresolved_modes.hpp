@@ -6,7 +6,7 @@
 namespace limber::dynamics {
 
 /// Numerical damping of the modes that a step of EnergyConserving does not
-/// resolve, which a midpoint would reverse from step to step for ever.
+/// resolve, which the midpoint rule would reverse in every step.
 ///
 /// Equation   with theta = 1 / (1 + rho) and u = (eta_1 - eta_0) / h:
 ///            u = theta eta'_1 + (1 - theta) eta'_0, and the elastic force is
@@ -26,7 +26,7 @@ class UnresolvedModes {
 
   /// rho of a mode, by its place among all modes [-].
   [[nodiscard]] double ratio(Eigen::Index i) const { return ratios_[i]; }
-  /// What they add to NewtonMatrix [1/s^2].
+  /// Their contribution to NewtonMatrix [1/s^2].
   [[nodiscard]] const VectorX& calming() const { return calming_; }
   /// (theta - 1/2) omega^2 h, beside a mode's own damping [1/s].
   [[nodiscard]] double damping(Eigen::Index i) const { return dampings_[i]; }

@@ -18,10 +18,10 @@ std::string find_name() {
 
 [[noreturn]] void refuse() {
   const char* const why = dlerror();
-  throw InputError(fmt::format(
-      "{} cannot be loaded, without which no body can be made from a mesh "
-      "({}). Install SuiteSparse's CHOLMOD.",
-      find_name(), why == nullptr ? "no reason given" : why));
+  throw InputError(
+      fmt::format("{} cannot be loaded; it is needed to make bodies from "
+                  "meshes ({}). Install SuiteSparse's CHOLMOD.",
+                  find_name(), why == nullptr ? "no reason given" : why));
 }
 
 template <typename Function>

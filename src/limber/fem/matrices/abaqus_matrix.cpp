@@ -30,8 +30,8 @@ RowLabel take_label(const TextScanner& scanner, std::string_view& rest) {
       std::labs(label.node) > kMostAbaqusNode || !parse_whole(dof, component) ||
       component < 0 || component > kMostAbaqusDof) {
     scanner.fail(
-        fmt::format("'{},{}' are no node and degree of freedom. "
-                    "Expected node,dof, node,dof, value.",
+        fmt::format("'{},{}' are not a node and a degree of freedom. Expected "
+                    "node,dof, node,dof, value.",
                     echo(node), echo(dof)));
   }
   label.component = static_cast<int>(component);
@@ -123,16 +123,15 @@ class SubstructureReader {
     for (std::string_view word; !(word = take_word(line)).empty();) {
       long value = 0;
       if (!parse_whole(word, value) || value < 1 || value > kMostAbaqusNode)
-        scanner_.fail(
-            fmt::format("'{}' is no degree of freedom. Expected "
-                        "those of the nodes.",
-                        echo(word)));
+        scanner_.fail(fmt::format(
+            "'{}' is not a degree of freedom. Expected those of the nodes.",
+            echo(word)));
       if (!is_first) {
         place = value;
         is_first = true;
       } else if (value > kMostAbaqusDof) {
         scanner_.fail(fmt::format(
-            "'{}' is no degree of freedom. Expected 1 to 30.", echo(word)));
+            "'{}' is not a degree of freedom. Expected 1 to 30.", echo(word)));
       } else {
         dofs.push_back(static_cast<int>(value));
       }

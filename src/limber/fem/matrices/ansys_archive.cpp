@@ -84,10 +84,9 @@ class AnsysReader {
     rest = scanner_.line();
     const FieldFormat format = parse_format(rest, letters);
     if (format.count == 0)
-      scanner_.fail(
-          fmt::format("'{}' is no format. Expected one as "
-                      "(3i9,6e21.13e3).",
-                      echo(rest)));
+      scanner_.fail(fmt::format(
+          "'{}' is not a format. Expected one such as (3i9,6e21.13e3).",
+          echo(rest)));
     return format;
   }
 
@@ -101,7 +100,7 @@ class AnsysReader {
     const FieldFormat real = parse_format(rest, "EDFG");
     if (real.count < 3)
       scanner_.fail(
-          "no coordinates. Expected a format of three, as 6e21.13e3.");
+          "no coordinates. Expected a format of three, such as 6e21.13e3.");
     for (;;) {
       if (!scanner_.next_text()) scanner_.fail_at_end("the end of NBLOCK (-1)");
       const std::string_view line = scanner_.line();
@@ -110,8 +109,7 @@ class AnsysReader {
       if (!parse_whole(trim_blanks(line.substr(0, whole.width)), node) ||
           node < 1)
         scanner_.fail(
-            fmt::format("'{}' is no node. Expected an integer from "
-                        "1.",
+            fmt::format("'{}' is not a node. Expected an integer from 1.",
                         echo(line.substr(0, whole.width))));
       std::array<double, 6> values{};
       for (std::size_t i = 0; i < std::min<std::size_t>(6, real.count); ++i) {
@@ -121,21 +119,17 @@ class AnsysReader {
             trim_blanks(line.substr(start, real.width));
         if (!text.empty() && !parse_real(text, values[i]))
           scanner_.fail(
-              fmt::format("'{}' is no finite number. Expected a "
-                          "coordinate.",
+              fmt::format("'{}' is not a finite number. Expected a coordinate.",
                           echo(text)));
       }
       if (values[3] != 0.0 || values[4] != 0.0 || values[5] != 0.0)
-        scanner_.fail(
-            fmt::format("node {} has turned axes. Expected nodes in "
-                        "the global axes: NROTAT all back before "
-                        "the matrices are written.",
-                        node));
+        scanner_.fail(fmt::format(
+            "node {} has rotated axes. Expected nodes in the global axes: "
+            "NROTAT all back before the matrices are written.",
+            node));
       if (!known_.insert(node).second)
-        scanner_.fail(
-            fmt::format("node {} is there twice. Expected each node "
-                        "once.",
-                        node));
+        scanner_.fail(fmt::format(
+            "node {} is given twice. Expected each node once.", node));
       model_.tags.push_back(node);
       model_.x.emplace_back(values[0], values[1], values[2]);
     }
@@ -161,7 +155,7 @@ class AnsysReader {
       if (!parse_whole(text, item) || item == 0 ||
           (item < 0 && set.nodes.empty()) || std::labs(item) > 2'000'000'000)
         scanner_.fail(
-            fmt::format("'{}' is no item. Expected a node.", echo(text)));
+            fmt::format("'{}' is not an item. Expected a node.", echo(text)));
       if (item > 0) {
         set.nodes.push_back(item);
         continue;

@@ -9,7 +9,7 @@ namespace limber::fem {
 
 /// Reads nodes (NBLOCK), node components (CMBLOCK) and, for pictures, elements
 /// (EBLOCK) of an Ansys archive, as CDWRITE writes it.
-/// @throws InputError with file and line, also for nodes with turned axes
+/// @throws InputError with file and line, also for nodes with rotated axes
 [[nodiscard]] ModelFile read_ansys_archive(const std::filesystem::path& file);
 
 }  // namespace limber::fem

@@ -54,10 +54,10 @@ class ConstraintSolver {
       std::erase_if(left, [&](const DeckEquation* e) { return add(*e); });
     }
     for (const DeckEquation* equation : left)
-      model_->found.push_back(fmt::format(
-          "{}: this equation has terms that are no rows; its first term moves "
-          "with none.",
-          equation->place));
+      model_->found.push_back(
+          fmt::format("{}: this equation has terms without rows; its dependent "
+                      "term does not move.",
+                      equation->place));
     store();
   }
 
@@ -80,10 +80,10 @@ class ConstraintSolver {
       is_whole = is_whole && motion[index(i)].has_value();
     }
     if (!is_whole) {
-      model_->found.push_back(fmt::format(
-          "{}: the motion of reference node {} is not among the rows; the "
-          "nodes that follow it move with none.",
-          rigid.place, rigid.reference));
+      model_->found.push_back(
+          fmt::format("{}: the motion of reference node {} is not among the "
+                      "rows; the nodes that follow it do not move.",
+                      rigid.place, rigid.reference));
       return;
     }
     for (const long node : rigid.nodes) {

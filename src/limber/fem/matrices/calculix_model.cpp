@@ -25,7 +25,7 @@ std::vector<long> read_whole_numbers(const TextScanner& scanner) {
     long value = 0;
     if (!parse_whole(word, value) || value < 0)
       scanner.fail(
-          fmt::format("'{}' is no node. Expected integers.", echo(word)));
+          fmt::format("'{}' is not a node. Expected integers.", echo(word)));
     numbers.push_back(value);
   }
   return numbers;
@@ -161,7 +161,7 @@ ModelFile read_frd(const std::filesystem::path& file) {
                             x[static_cast<Eigen::Index>(i)]);
     if (!is_right)
       scanner.fail(
-          fmt::format("'{}' is no node. Expected -1, number and three "
+          fmt::format("'{}' is not a node. Expected -1, number and three "
                       "coordinates in 12 columns each.",
                       echo(line)));
     model.tags.push_back(node);

@@ -39,9 +39,10 @@ void expand_nodes(const std::vector<ExpandedElement>& elements,
 /// reference node.
 void name_rotations(const InputDeck& deck, std::vector<RowLabel>& rows);
 
-/// Adds what the input file's constraints say of condensed rows: nodes of
-/// rigid bodies, first terms of equations. What cannot be had from rows alone
-/// is told in `found`. @param model with tags, x and rows; `rows` beside them
+/// Adds the constraints of the input file on condensed rows: nodes of
+/// rigid bodies, first terms of equations. What cannot be derived from rows
+/// alone is reported in `found`. @param model with tags, x and rows; `rows`
+/// beside them
 void add_constraints(const InputDeck& deck, const std::vector<RowLabel>& rows,
                      MatrixModel& model);
 

@@ -25,8 +25,8 @@ SourceMatrix read_coordinate_text(const std::filesystem::path& file) {
     if (!parse_whole(first, row) || !parse_whole(second, column) || row < 1 ||
         column < 1 || std::max(row, column) > kMostMatrixRows) {
       scanner.fail(
-          fmt::format("'{} {}' are no row and column. Expected "
-                      "integers from 1, and a value.",
+          fmt::format("'{} {}' are not a row and a column. Expected integers "
+                      "from 1, and a value.",
                       echo(first), echo(second)));
     }
     const double value = entries.read(scanner, take_word(rest));

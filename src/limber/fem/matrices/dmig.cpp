@@ -90,8 +90,8 @@ class DmigMatrix {
     for (std::size_t i = 0; i < is_row_.size(); ++i) {
       if (is_row_[i]) continue;
       throw InputError(fmt::format(
-          "{}:{}: column {} of {} (form {}, rectangular) is no row. Expected a "
-          "square matrix, whose columns are its rows: form 1 or 6.",
+          "{}:{}: column {} of {} (form {}, rectangular) is not a row. "
+          "Expected a square matrix, whose columns are its rows: form 1 or 6.",
           source.matrix.file, column_lines_[i], name_row(source.labels[i]),
           name, form));
     }
@@ -164,10 +164,9 @@ class DmigReader {
   void begin_matrix(const DmigLine& line, const std::string& name) {
     const auto [found, is_new] = matrices_.try_emplace(name);
     if (!is_new)
-      scanner_.fail(
-          fmt::format("{} is there twice, first on line {}. Expected "
-                      "each matrix once.",
-                      echo(name), found->second.line));
+      scanner_.fail(fmt::format(
+          "{} is given twice, first on line {}. Expected each matrix once.",
+          echo(name), found->second.line));
     DmigMatrix& matrix = found->second;
     matrix.line = scanner_.number();
     long type = 0;
@@ -227,16 +226,14 @@ class DmigReader {
     constexpr long kMostNode = 2'000'000'000;
     if (!parse_whole(node, label.node) || label.node < 1 ||
         label.node > kMostNode)
-      scanner_.fail(
-          fmt::format("'{}' is no point. Expected a grid or scalar "
-                      "point, from 1.",
-                      echo(node)));
+      scanner_.fail(fmt::format(
+          "'{}' is not a point. Expected a grid or scalar point, from 1.",
+          echo(node)));
     if (!component.empty() &&
         (!parse_whole(component, number) || number < 0 || number > 6))
-      scanner_.fail(
-          fmt::format("'{}' is no component. Expected 1 to 6, or 0 "
-                      "of a scalar point.",
-                      echo(component)));
+      scanner_.fail(fmt::format(
+          "'{}' is not a component. Expected 1 to 6, or 0 of a scalar point.",
+          echo(component)));
     label.component = static_cast<int>(number);
     return label;
   }

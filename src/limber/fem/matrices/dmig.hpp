@@ -10,7 +10,7 @@ namespace limber::fem {
 
 /// Reads the matrices on DMIG cards of bulk data or a punch file, in small,
 /// large and free fields: IFO 1, 2, 6 or 9, real in single or double
-/// precision. Other cards are passed over; INCLUDE files are not followed.
+/// precision. Other cards are ignored; INCLUDE files are not followed.
 /// Source: MSC Nastran Quick Reference Guide, "DMIG".
 /// @returns none if there are no such cards
 /// @throws InputError with file and line

@@ -125,7 +125,7 @@ class FileSetReader {
   void set_points(const Path& file) {
     if (set_.points)
       throw InputError(
-          fmt::format("{}: the points of the recovery rows are in {}, too. "
+          fmt::format("{}: the points of the recovery rows are also in {}. "
                       "Expected one table.",
                       file.string(), set_.points->file.string()));
     set_.points = read_node_table(file);
@@ -135,10 +135,10 @@ class FileSetReader {
 
   void set_recovery_rows(RowTable table) {
     if (set_.recovery_rows)
-      throw InputError(fmt::format(
-          "{}: the rows of the recovery matrix are in {}, too. Expected one "
-          "table.",
-          table.file.string(), set_.recovery_rows->file.string()));
+      throw InputError(
+          fmt::format("{}: the rows of the recovery matrix are also in {}. "
+                      "Expected one table.",
+                      table.file.string(), set_.recovery_rows->file.string()));
     note(table.file, fmt::format("what the recovery rows are, {} rows",
                                  table.labels.size()));
     set_.recovery_rows = std::move(table);
@@ -239,7 +239,7 @@ class FileSetReader {
   }
 
   /// The file of a kind, null if there is none. Of several that beside the
-  /// matrices, whose name begins alike.
+  /// matrices, whose name has the same beginning.
   const Path* find_single(ModelFileKind kind) {
     const std::vector<Path>& all = files_[kind];
     if (all.empty()) return nullptr;
@@ -310,9 +310,10 @@ class FileSetReader {
           all->tags.push_back(model.tags[i]);
           all->x.push_back(model.x[i]);
         } else if (place->second != model.x[i]) {
-          throw InputError(fmt::format(
-              "{}: GRID {} is elsewhere than in {}. Expected one position.",
-              file.string(), model.tags[i], all->file.string()));
+          throw InputError(
+              fmt::format("{}: GRID {} has another position than in {}. "
+                          "Expected one position.",
+                          file.string(), model.tags[i], all->file.string()));
         }
       }
       all->elements.insert(all->elements.end(), model.elements.begin(),

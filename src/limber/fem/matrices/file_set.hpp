@@ -34,7 +34,7 @@ struct FileSet {
 /// The matrix of recovery rows.
 [[nodiscard]] SourceMatrix* find_recovery(FileSet& set);
 
-/// Finds out what each file, also in folders, is and reads it.
+/// Determines the kind of each file, also in folders, and reads it.
 /// @param recovery files of recovery rows: a matrix, tables of points and rows
 /// @throws InputError for files that cannot be read, are none of the formats
 /// (unless they lie in a folder, where others may lie), or are there twice

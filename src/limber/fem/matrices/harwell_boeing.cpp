@@ -37,7 +37,7 @@ long take_count(const TextScanner& scanner, std::string_view& rest) {
   long value = 0;
   if (!word.empty() &&
       (!parse_whole(word, value) || value < 0 || value > kMost))
-    scanner.fail(fmt::format("'{}' is no count. Expected an integer from 0.",
+    scanner.fail(fmt::format("'{}' is not a count. Expected an integer from 0.",
                              echo(word)));
   return value;
 }
@@ -54,8 +54,8 @@ FieldFormat read_field_format(const TextScanner& scanner,
   }
   if (format.count == 0)
     scanner.fail(
-        "a format is missing. Expected those of pointers, rows and "
-        "values, as (I14) (I14) (D25.15).");
+        "a format is missing. Expected those of pointers, rows and values, "
+        "such as (I14) (I14) (D25.15).");
   return format;
 }
 
@@ -101,8 +101,7 @@ long take_index(FieldReader& fields, const TextScanner& scanner, long least,
   long value = 0;
   if (!parse_whole(text, value) || value < least || value > most) {
     scanner.fail(
-        fmt::format("'{}' is no {}. Expected an integer from {} to "
-                    "{}.",
+        fmt::format("'{}' is not a {}. Expected an integer from {} to {}.",
                     echo(text), what, least, most));
   }
   return value;

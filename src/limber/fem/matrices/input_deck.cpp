@@ -140,8 +140,8 @@ class InputDeckReader {
   double read_real(std::string_view field) const {
     double value = 0.0;
     if (!field.empty() && !parse_real(field, value))
-      scanner_->fail(
-          fmt::format("'{}' is no finite number. Expected one.", echo(field)));
+      scanner_->fail(fmt::format("'{}' is not a finite number. Expected one.",
+                                 echo(field)));
     return value;
   }
 
@@ -150,10 +150,9 @@ class InputDeckReader {
     const long node = read_number(fields[0], "node");
     const auto [found, is_new] = lines_.try_emplace(node, scanner_->number());
     if (!is_new)
-      scanner_->fail(
-          fmt::format("node {} is there twice, first on line {}. "
-                      "Expected each node once.",
-                      node, found->second));
+      scanner_->fail(fmt::format(
+          "node {} is given twice, first on line {}. Expected each node once.",
+          node, found->second));
     Vector3 x = Vector3::Zero();
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
       x[static_cast<Eigen::Index>(i)] = read_real(fields[i + 1]);
@@ -162,7 +161,7 @@ class InputDeckReader {
     if (keyword_.has("NSET")) sets_[keyword_.get("NSET")].push_back(node);
   }
 
-  /// Number, nodes; a line that ends in a comma goes on.
+  /// Number, nodes; a line that ends in a comma continues.
   void add_element(std::string_view line) {
     if (!continued_) element_.clear();
     for (const std::string_view field : split_commas(line))

@@ -29,7 +29,7 @@ struct DeckRigid {
   std::array<bool, 3> translations = {true, true, true};  ///< that follow
 };
 
-/// What an input file of CalculiX or Abaqus says of nodes.
+/// Data of nodes in an input file of CalculiX or Abaqus.
 struct InputDeck {
   ModelFile model;
   std::vector<DeckEquation> equations;
@@ -42,7 +42,7 @@ struct InputDeck {
 
 /// Reads *NODE, *ELEMENT, *NSET, *ELSET, *BOUNDARY, *EQUATION, *RIGID BODY,
 /// *COUPLING with *KINEMATIC and *INCLUDE; of parts, one instance that is not
-/// moved. Other keywords are passed over.
+/// moved. Other keywords are ignored.
 /// Source: CalculiX 2.20 User's Manual, Abaqus Keywords Reference Guide.
 /// @throws InputError with file and line, also for nodes that the program
 /// generates or that are given in other coordinates (*NGEN, *SYSTEM ...)

@@ -92,10 +92,9 @@ void MatrixEntries::add(long row, long column, double value, std::size_t line) {
 double MatrixEntries::read(const TextScanner& scanner, std::string_view text) {
   double value = 0.0;
   if (!parse_real(text, value)) {
-    scanner.fail(
-        fmt::format("'{}' is no finite number. Expected a value of "
-                    "the matrix.",
-                    echo(text)));
+    scanner.fail(fmt::format(
+        "'{}' is not a finite number. Expected a value of the matrix.",
+        echo(text)));
   }
   int& digits = value < 0.0 ? negative_digits_ : digits_;
   if (digits < kMostDigits) digits = std::max(digits, count_digits(text));

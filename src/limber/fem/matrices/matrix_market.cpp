@@ -27,8 +27,7 @@ long read_index(const TextScanner& scanner, std::string_view& rest, long most,
   long value = 0;
   if (!parse_whole(word, value) || value < 1 || value > most) {
     scanner.fail(
-        fmt::format("'{}' is no {}. Expected an integer from 1 to "
-                    "{}.",
+        fmt::format("'{}' is not a {}. Expected an integer from 1 to {}.",
                     echo(word), what, most));
   }
   return value;
@@ -84,8 +83,8 @@ void read_coordinates(TextScanner& scanner, const MarketHead& head,
   entries.reserve(static_cast<std::size_t>(head.entries), scanner.file());
   for (long k = 0; k < head.entries; ++k) {
     if (!next_market_line(scanner)) {
-      scanner.fail_at_end(
-          fmt::format("{} entries, as the size says, not {}", head.entries, k));
+      scanner.fail_at_end(fmt::format(
+          "{} entries, as stated in the size line, not {}", head.entries, k));
     }
     std::string_view rest = scanner.line();
     const long row = read_index(scanner, rest, head.rows, "row");
@@ -122,7 +121,8 @@ void read_array(TextScanner& scanner, const MarketHead& head,
   }
   if (!trim_blanks(rest).empty())
     scanner.fail(
-        "more values than the size says. Expected the end of the file.");
+        "more values than stated in the size line. Expected the end of the "
+        "file.");
 }
 
 }  // namespace
@@ -146,7 +146,8 @@ SourceMatrix read_matrix_market(const std::filesystem::path& file,
   }
   if (next_market_line(scanner))
     scanner.fail(
-        "more lines than the size says. Expected the end of the file.");
+        "more lines than stated in the size line. Expected the end of the "
+        "file.");
   SourceMatrix source;
   source.matrix.file = file.string();
   source.format = "Matrix Market";
@@ -181,7 +182,8 @@ std::vector<long> read_node_map(const std::filesystem::path& file) {
   }
   if (next_market_line(scanner))
     scanner.fail(
-        "more lines than the size says. Expected the end of the file.");
+        "more lines than stated in the size line. Expected the end of the "
+        "file.");
   return nodes;
 }
 

@@ -13,7 +13,7 @@
 
 namespace limber::fem {
 
-/// What a row (and column) of the matrices moves.
+/// The degree of freedom of a row (and column) of the matrices.
 struct MatrixRow {
   int node = -1;       ///< index into MatrixModel::tags; -1: no node (a scalar
                        ///< point, a generalized coordinate)
@@ -34,9 +34,9 @@ struct MatrixNodeSet {
   std::vector<int> nodes;  ///< sorted indices into MatrixModel::tags
 };
 
-/// What of a structure may touch others: solids that fill its shells and beams,
-/// and its solid elements.
-struct ModelSkin {
+/// Surface of a structure that may be in contact with others: solids that fill
+/// its shells and beams, and its solid elements.
+struct ModelSurface {
   Mesh mesh;  ///< blocks alone; its nodes are those of the model
   std::vector<SolidMaterial> materials;  ///< by region, in SI units
   /// By node: the one that it moves with, of those on faces of shells and
@@ -71,7 +71,7 @@ struct MatrixModel {
   /// The last nodes, on faces of shells and outlines of beams, that are there
   /// for pictures and contact only.
   std::size_t drawn = 0;
-  ModelSkin skin;             ///< of structures; else empty
+  ModelSurface mesh_surface;  ///< of structures; else empty
   bool is_structure = false;  ///< of beams, shells and solids of a deck
   /// Of beams and shells, by their motion; empty: not known.
   RecoverSections recover_sections;

@@ -45,15 +45,15 @@ bool is_number(const std::string& text) {
 double read_coordinate(const TextScanner& scanner, const std::string& text) {
   double value = 0.0;
   if (!parse_real(text, value))
-    scanner.fail(fmt::format("'{}' is no finite number. Expected a coordinate.",
-                             echo(text)));
+    scanner.fail(fmt::format(
+        "'{}' is not a finite number. Expected a coordinate.", echo(text)));
   return value;
 }
 
 long read_node(const TextScanner& scanner, const std::string& text) {
   long node = 0;
   if (!parse_whole(text, node) || node < 1 || node > kMostNodeNumber)
-    scanner.fail(fmt::format("'{}' is no node. Expected an integer from 1.",
+    scanner.fail(fmt::format("'{}' is not a node. Expected an integer from 1.",
                              echo(text)));
   return node;
 }
@@ -68,8 +68,8 @@ long read_components(const TextScanner& scanner, const std::string& text) {
       text.find_first_not_of("123456") == std::string::npos;
   if (!is_right)
     scanner.fail(
-        fmt::format("'{}' are no components. Expected ascending "
-                    "digits 1 to 6, as 123 or 123456.",
+        fmt::format("'{}' are not components. Expected ascending digits 1 to "
+                    "6, such as 123 or 123456.",
                     echo(text)));
   return value;
 }
@@ -132,7 +132,7 @@ class NodeTableReader {
                                         find({"X"}), find({"Y"}), find({"Z"})};
     if (*std::min_element(columns.begin(), columns.end()) < 0) {
       if (!model_.tags.empty() && upper.find("NODE") == std::string::npos)
-        scanner_.fail(fmt::format("'{}' is no node. Expected node, x, y, z.",
+        scanner_.fail(fmt::format("'{}' is not a node. Expected node, x, y, z.",
                                   echo(scanner_.line())));
       return;
     }
@@ -159,10 +159,9 @@ class NodeTableReader {
     const long node = read_node(scanner_, at(columns_[0]));
     const auto [found, is_new] = lines_.try_emplace(node, scanner_.number());
     if (!is_new)
-      scanner_.fail(
-          fmt::format("node {} is there twice, first on line {}. "
-                      "Expected each node once.",
-                      node, found->second));
+      scanner_.fail(fmt::format(
+          "node {} is given twice, first on line {}. Expected each node once.",
+          node, found->second));
     Vector3 x;
     for (int i = 0; i < 3; ++i)
       x[i] = read_coordinate(scanner_,
@@ -171,11 +170,10 @@ class NodeTableReader {
       for (std::size_t i = static_cast<std::size_t>(angles_); i < fields.size();
            ++i)
         if (read_coordinate(scanner_, fields[i]) != 0.0)
-          scanner_.fail(
-              fmt::format("node {} has turned axes ({}). Expected "
-                          "nodes in the global axes: NROTAT all "
-                          "back before the matrices are written.",
-                          node, echo(fields[i])));
+          scanner_.fail(fmt::format(
+              "node {} has rotated axes ({}). Expected nodes in the global "
+              "axes: NROTAT all back before the matrices are written.",
+              node, echo(fields[i])));
     model_.tags.push_back(node);
     model_.x.push_back(x);
     model_.components.push_back(
@@ -206,10 +204,9 @@ class RowTableMaker {
       lines_.resize(at + 1, 0);
     }
     if (lines_[at] != 0)
-      scanner.fail(
-          fmt::format("row {} is there twice, first on line {}. "
-                      "Expected each row once.",
-                      row, lines_[at]));
+      scanner.fail(fmt::format(
+          "row {} is given twice, first on line {}. Expected each row once.",
+          row, lines_[at]));
     labels_[at] = label;
     lines_[at] = scanner.number();
   }
@@ -272,8 +269,8 @@ RowTable read_dof_lines(const std::filesystem::path& file) {
         !parse_whole(text.substr(0, dot), label.node) || label.node < 1 ||
         !parse_whole(text.substr(dot + 1), component) || component < 0 ||
         component > 6 || label.node > kMostNodeNumber) {
-      scanner.fail(
-          fmt::format("'{}'. Expected node.component, as 12.3.", echo(text)));
+      scanner.fail(fmt::format("'{}'. Expected node.component, such as 12.3.",
+                               echo(text)));
     }
     label.component = static_cast<int>(component);
     table.labels.push_back(label);
@@ -320,7 +317,7 @@ std::vector<RowTable> read_set_print(const std::filesystem::path& file) {
           label.node > kMostNodeNumber ||
           !parse_whole(word.substr(dash + 1), component) || component < 0 ||
           component > 6)
-        scanner.fail(fmt::format("'{}' is no row. Expected grid-component.",
+        scanner.fail(fmt::format("'{}' is not a row. Expected grid-component.",
                                  echo(word)));
       label.component = static_cast<int>(component);
       rows.add(scanner, row, label);

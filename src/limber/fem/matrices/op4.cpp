@@ -55,8 +55,8 @@ Op4Head read_op4_head(TextScanner& scanner) {
       std::labs(head.rows) > kMostMatrixRows || type < 1 || type > 4 ||
       head.format.count == 0) {
     scanner.fail(
-        "no head of a matrix. Expected columns, rows, form and type "
-        "in 8 columns each, name and format, as 1P,3E23.16.");
+        "no head of a matrix. Expected columns, rows, form and type in 8 "
+        "columns each, name and format, such as 1P,3E23.16.");
   }
   head.name = trim_blanks(rest.substr(0, kOp4Columns));
   if (type > 2)

@@ -76,14 +76,14 @@ class ModelMaker {
   /// Abaqus writes rows in the axes of *TRANSFORM, CalculiX in the global ones.
   void check_axes() const {
     if (!set_.is_calculix && set_.deck && set_.deck->has_transform)
-      throw InputError(fmt::format(
-          "{}: *TRANSFORM turns the axes of rows. Expected none: remove it "
-          "before the matrices are written.",
-          set_.deck->model.file.string()));
+      throw InputError(
+          fmt::format("{}: *TRANSFORM rotates the axes of rows. Expected none: "
+                      "remove it before the matrices are written.",
+                      set_.deck->model.file.string()));
   }
 
   void label_matrices() {
-    // Files without a head do not say rows beyond their last entry.
+    // Files without a head do not state rows beyond their last entry.
     const Eigen::Index most =
         std::max(K_->matrix.entries.rows(), M_->matrix.entries.rows());
     for (SourceMatrix* source : {K_, M_}) {
@@ -215,9 +215,9 @@ class ModelMaker {
       set_.found.push_back(fmt::format("{} rows are of unknown kind", unknown));
   }
 
-  /// Share of t' A t in the sum of |entries|, over translations t. A stiffness
-  /// has none where the body is free.
-  [[nodiscard]] double find_share(const SparseMatrix& A) const {
+  /// Fraction of t' A t in the sum of |entries|, over translations t. A
+  /// stiffness has none where the body is free.
+  [[nodiscard]] double find_fraction(const SparseMatrix& A) const {
     double sum = 0.0;
     double absolute = 0.0;
     for (int j = 0; j < A.outerSize(); ++j) {
@@ -237,8 +237,8 @@ class ModelMaker {
   void tell_roles_apart() {
     constexpr double kNone = 1e-5;  // digits of a file of single precision
     constexpr double kMuch = 1e-3;
-    const double k = find_share(model_.stiffness.entries);
-    const double m = find_share(model_.mass.entries);
+    const double k = find_fraction(model_.stiffness.entries);
+    const double m = find_fraction(model_.mass.entries);
     const bool are_swapped = k > kMuch && m < kNone;
     if (is_guess_ && are_swapped) {
       std::swap(model_.stiffness, model_.mass);

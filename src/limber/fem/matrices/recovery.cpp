@@ -42,7 +42,7 @@ void check_unit_row(const SourceMatrix& recovery, const RecoveryRows& entries,
   departure = std::max(departure, largest);
   if (departure <= kRounding) return;
   throw InputError(fmt::format(
-      "{}: row {} recovers {}, which is row {} of the matrices, and departs "
+      "{}: row {} recovers {}, which is row {} of the matrices, and differs "
       "from it by {:.3g}. Expected columns in the order of the matrices' rows.",
       recovery.matrix.file, row + 1,
       name_row(recovery.labels[static_cast<std::size_t>(row)]), own + 1,
@@ -88,7 +88,7 @@ void check_recovery(FileSet& set, std::size_t rows) {
   }
   if (recovery->labels.size() != count)
     throw InputError(fmt::format(
-        "{}: it has {} rows, and what they are is known of {}. Expected a "
+        "{}: it has {} rows, and the meaning of only {} is known. Expected a "
         "table of its points with 3 or 6 rows each or their components "
         "(node,x,y,z,components), or a table of its rows (row,node,component).",
         recovery->matrix.file, count, recovery->labels.size()));
@@ -113,11 +113,11 @@ std::map<long, Vector3> list_points(const FileSet& set) {
     if (found == points.end() ||
         (found->second - set.nodes->x[i]).norm() <= kSame * size)
       continue;
-    throw InputError(fmt::format(
-        "{}: point {} is elsewhere than node {} in {}. Expected one place, or "
-        "another number.",
-        set.points->file.string(), found->first, found->first,
-        set.nodes->file.string()));
+    throw InputError(
+        fmt::format("{}: point {} is not at the position of node {} in {}. "
+                    "Expected one place, or another number.",
+                    set.points->file.string(), found->first, found->first,
+                    set.nodes->file.string()));
   }
   return points;
 }
@@ -149,10 +149,10 @@ void add_recovery(FileSet& set, const std::vector<RowLabel>& labels,
           recovery->matrix.file, label.node, i + 1));
     const MatrixRow row{place->second, label.component - 1};
     if (!condensed.emplace(row.node, row.component).second)
-      throw InputError(fmt::format(
-          "{}: row {} recovers {}, which the input file's constraints give, "
-          "too. Expected one of them.",
-          recovery->matrix.file, i + 1, name_row(label)));
+      throw InputError(
+          fmt::format("{}: row {} recovers {}, which also follows from the "
+                      "input file's constraints. Expected one of them.",
+                      recovery->matrix.file, i + 1, name_row(label)));
     for (RecoveryRows::InnerIterator it(entries, i); it; ++it)
       equations.emplace_back(static_cast<int>(model.condensed.size()),
                              static_cast<int>(it.col()), it.value());

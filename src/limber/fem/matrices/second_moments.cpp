@@ -25,14 +25,14 @@ void check_sum(const MatrixModel& model, const std::string& file) {
   const Eigen::SparseMatrix<double> rest = model.moments[0] + model.moments[1] +
                                            model.moments[2] -
                                            model.mass.entries;
-  const double share =
+  const double fraction =
       find_largest_entry(rest) / find_largest_entry(model.mass.entries);
-  if (share <= kRounding) return;
+  if (fraction <= kRounding) return;
   throw InputError(fmt::format(
       "{}: S_xx + S_yy + S_zz differs from the mass matrix {} by {:.2g} of its "
       "largest entry. Expected second moments of the same mass, with rows in "
       "the same order.",
-      file, model.mass.file, share));
+      file, model.mass.file, fraction));
 }
 
 }  // namespace
@@ -52,17 +52,17 @@ void take_second_moments(FileSet& set, MatrixModel& model) {
     const int i = find_second_moment(file);
     auto& moment = model.moments[static_cast<std::size_t>(i)];
     if (moment.rows() > 0)
-      throw InputError(fmt::format("{}: {} is there twice. Expected one file.",
+      throw InputError(fmt::format("{}: {} is given twice. Expected one file.",
                                    file, source.name));
     moment = std::move(entries);
     ++count;
   }
   if (count == 0) return;
   if (count != model.moments.size())
-    throw InputError(fmt::format(
-        "{}: {} of six second moments of the mass are there. Expected S_xx, "
-        "S_yy, S_zz, S_xy, S_xz and S_yz, or none.",
-        file, count));
+    throw InputError(
+        fmt::format("{}: {} of six second moments of the mass are given. "
+                    "Expected S_xx, S_yy, S_zz, S_xy, S_xz and S_yz, or none.",
+                    file, count));
   check_sum(model, file);
 }
 

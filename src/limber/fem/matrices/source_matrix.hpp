@@ -10,7 +10,7 @@
 
 namespace limber::fem {
 
-/// What a row moves, in the file's own numbers.
+/// The degree of freedom of a row, in the file's own numbers.
 struct RowLabel {
   long node = 0;
   /// 1 to 3: translations, 4 to 6: rotations; all others (0 of a scalar point,
@@ -56,7 +56,7 @@ struct SourceMatrix {
 /// any other name.
 [[nodiscard]] int find_second_moment(const std::filesystem::path& file);
 
-/// What rows are, in the order of the matrices.
+/// Labels of rows, in the order of the matrices.
 struct RowTable {
   std::filesystem::path file;
   std::string format;

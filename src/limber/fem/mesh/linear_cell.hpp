@@ -8,7 +8,7 @@ namespace limber::fem {
 enum class LinearCell { wedge, hexahedron };
 
 /// Nodes and faces of a solid of first order, as Gmsh numbers them, without
-/// quadrature: for surfaces of what is no solid element.
+/// quadrature: for surfaces of elements other than solids.
 [[nodiscard]] ReferenceElement make_linear_cell(LinearCell cell);
 
 }  // namespace limber::fem

@@ -35,7 +35,7 @@ struct PhysicalGroup {
   std::vector<ElementBlock> blocks;  ///< its elements (regions unused)
 };
 
-/// What a file states of a region's material.
+/// Material of a region as stated in a file.
 struct RegionMaterial {
   std::string name;        ///< in the file; empty: none
   SolidMaterial material;  ///< in SI units

@@ -119,10 +119,10 @@ void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
         "Expected positive; {}.",
         mesh.source, block.tags[e], element.name,
         det < -least ? "inverted" : "degenerate", det,
-        element.order > 1
-            ? "where a curved edge did it, take a finer mesh or straight edges "
-              "(Mesh.SecondOrderLinear = 1); else correct the element's nodes"
-            : "correct the element's nodes or their order"));
+        element.order > 1 ? "if a curved edge is the cause, use a finer mesh "
+                            "or straight edges (Mesh.SecondOrderLinear = 1); "
+                            "else correct the element's nodes"
+                          : "correct the element's nodes or their order"));
   }
 }
 
@@ -144,8 +144,8 @@ void check_shared_face(const Mesh& mesh, const KeyedFace* first,
         .tags[keyed.face.element];
   };
   throw InputError(fmt::format(
-      "{}: {} elements share one face (elements {}, {}, {} ...), so some lie "
-      "in one another. Expected two at most; remove the doubled elements.",
+      "{}: {} elements share one face (elements {}, {}, {} ...), so some "
+      "overlap. Expected two at most; remove the doubled elements.",
       mesh.source, last - first, tag(first[0]), tag(first[1]), tag(first[2])));
 }
 
@@ -161,8 +161,8 @@ void check_face_orders(const Mesh& mesh) {
     }
     throw InputError(fmt::format(
         "{}: {} and {} share the corners of a face, but not its other nodes "
-        "({} and {} nodes), so that they would part there. Expected the same "
-        "nodes; give both elements the same order.",
+        "({} and {} nodes), so that the mesh would separate there. Expected "
+        "the same nodes; give both elements the same order.",
         mesh.source, describe_element(mesh, a), describe_element(mesh, b),
         nodes_a.size(), nodes_b.size()));
   }
@@ -213,10 +213,10 @@ void find_boundary(Mesh& mesh) {
     first = last;
   }
   if (mesh.boundary_faces.empty())
-    throw InputError(fmt::format(
-        "{}: no face lies on a surface, so every element is there twice. "
-        "Remove the doubled elements.",
-        mesh.source));
+    throw InputError(
+        fmt::format("{}: no face lies on a surface, so every element is given "
+                    "twice. Remove the doubled elements.",
+                    mesh.source));
   mesh.boundary_nodes.clear();
   for (std::size_t node = 0; node < on_boundary.size(); ++node)
     if (on_boundary[node])
@@ -228,12 +228,13 @@ void check_faces(const Mesh& mesh) {
   const std::vector<KeyedTriple> triples = boundary_triples(mesh);
   for (std::size_t i = 1; i < triples.size(); ++i)
     if (triples[i].key == triples[i - 1].key)
-      throw InputError(fmt::format(
-          "{}: {} and {} have three corners of a face in common, but their "
-          "faces do not match, so that they would part there. Expected faces "
-          "shared whole; put pyramids between quadrilaterals and triangles.",
-          mesh.source, describe_element(mesh, triples[i - 1].face),
-          describe_element(mesh, triples[i].face)));
+      throw InputError(
+          fmt::format("{}: {} and {} have three corners of a face in common, "
+                      "but their faces do not match, so that the mesh would "
+                      "separate there. Expected faces shared whole; put "
+                      "pyramids between quadrilaterals and triangles.",
+                      mesh.source, describe_element(mesh, triples[i - 1].face),
+                      describe_element(mesh, triples[i].face)));
 }
 
 void check_elements(const Mesh& mesh) {

@@ -144,9 +144,9 @@ const Format& find_format(const std::filesystem::path& file) {
       continue;
     }
     if (extension == small || extension == to_upper(extension)) return format;
-    throw InputError(
-        fmt::format("{}: Gmsh does not know files by '{}'; call it '{}'.",
-                    file.string(), extension, small));
+    throw InputError(fmt::format(
+        "{}: Gmsh does not recognise files ending in '{}'; rename it to '{}'.",
+        file.string(), extension, small));
   }
   throw InputError(fmt::format("{}: unknown kind of file '{}'. Expected {}.",
                                file.string(), extension, list_extensions()));
@@ -166,7 +166,7 @@ MeshFileKind find_mesh_file_kind(const std::filesystem::path& file) {
     }
   }
   throw InputError(
-      fmt::format("{}: its name says {}, but it does not begin as one{}.",
+      fmt::format("{}: its name indicates {}, but its content does not{}.",
                   file.string(), format.name,
                   other.empty() || head.empty()
                       ? std::string(head.empty() ? ": it is empty" : "")

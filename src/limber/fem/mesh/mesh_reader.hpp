@@ -28,7 +28,7 @@ namespace limber::fem {
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file,
                              const MeshOptions& options = {});
 
-/// A mesh and what it was made from.
+/// A mesh and its sources.
 struct TracedMesh {
   Mesh mesh;
   /// Changes made to the mesh to make it usable.

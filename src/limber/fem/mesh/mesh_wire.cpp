@@ -110,7 +110,7 @@ std::vector<WireBlock> to_wire(const std::vector<ElementBlock>& blocks,
 /// Validates the parts of a message.
 void require(bool holds) {
   if (!holds) {
-    throw InputError("the mesher's answer does not fit together");
+    throw InputError("the mesher's reply is inconsistent");
   }
 }
 

@@ -57,7 +57,7 @@ std::filesystem::path find_program() {
   if (const char* named = std::getenv("LIMBER_MESHER")) {
     if (can_run(named)) return std::filesystem::absolute(named);
     throw InputError(fmt::format(
-        "LIMBER_MESHER names '{}', which is no program that can be run.",
+        "LIMBER_MESHER names '{}', which is not an executable program.",
         named));
   }
   return find_helper("the mesher", kName,
@@ -131,9 +131,8 @@ std::string explain(const Mesher& mesher, const MeshOptions& options,
       describe_output(end) + describe_count(end, options);
   if (end.is_out_of_time) {
     return fmt::format(
-        "meshing did not end within {:.6g} s, and was ended. Correct the file, "
-        "or "
-        "allow more by LIMBER_MESH_SECONDS. {}",
+        "meshing did not finish within {:.6g} s and was stopped. Correct the "
+        "file, or allow more by LIMBER_MESH_SECONDS. {}",
         mesher.seconds, output);
   }
   if (end.is_reply_too_long) {

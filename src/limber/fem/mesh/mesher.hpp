@@ -40,12 +40,12 @@ struct Mesher {
                                    const MeshOptions& options,
                                    const Progress& progress = {});
 
-/// What its line of output begins with that says how many elements it expects.
+/// Beginning of its line of output that states the number of expected elements.
 inline constexpr std::string_view kExpectedElements =
     "limber-mesh: expected elements: ";
 
 /// Exit statuses of the mesher with a specific meaning.
-inline constexpr int kMesherRefused = 40;  ///< its output says why
+inline constexpr int kMesherRefused = 40;  ///< its output states why
 inline constexpr int kMesherOutOfMemory = 41;
 
 }  // namespace limber::fem

@@ -35,7 +35,8 @@ double calc_measure(const Tangents& tangents) {
   return tangents.col(0).norm();
 }
 
-/// Adds one element's, or one of its faces', to those nodes that `shares` has.
+/// Adds one element's, or one of its faces', to those nodes that are in
+/// `shares`.
 /// @param dimension of what is integrated over @param x of all its nodes
 /// @param measure of a map's tangents: length, area, volume, or part of it
 template <typename Measure>

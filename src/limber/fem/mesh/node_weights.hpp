@@ -16,19 +16,19 @@ namespace limber::fem {
 ///            sum w_n u_n and those of (x - p) x u are sum y_n x u_n.
 /// Limits     w_n is zero at the corners of straight second-order triangles
 ///            and negative, -1/12, at those of quadrangles of eight nodes: the
-///            share of a load spread evenly. y_n is then not w_n (x_n - p).
+///            fraction of a load spread evenly. y_n is then not w_n (x_n - p).
 struct WeightedNodes {
   std::vector<int> nodes;  ///< sorted node indices
   VectorX weights;         ///< w, sum to one [-]
   Matrix3X moments;        ///< y, sum to zero [m]
 };
 
-/// Shares of a load spread evenly over a physical group: a surface, a curve or
-/// a volume; equal over points.
+/// Fractions of a load spread evenly over a physical group: a surface, a curve
+/// or a volume; equal over points.
 [[nodiscard]] WeightedNodes weigh_group(const Mesh& mesh,
                                         const PhysicalGroup& group);
 
-/// Every node the same share.
+/// Every node with the same fraction.
 [[nodiscard]] WeightedNodes weigh_equally(const Mesh& mesh,
                                           std::vector<int> nodes);
 
@@ -43,8 +43,8 @@ struct NearNodes {
     const Mesh& mesh, const std::function<double(const Vector3&)>& distance,
     double tolerance);
 
-/// Shares of a load spread evenly over the boundary faces that lie wholly in
-/// `nodes`; equal shares if there is no such face.
+/// Fractions of a load spread evenly over the boundary faces that lie wholly in
+/// `nodes`; equal fractions if there is no such face.
 [[nodiscard]] WeightedNodes weigh_boundary(const Mesh& mesh,
                                            const std::vector<int>& nodes);
 

@@ -32,8 +32,8 @@ Eigen::Index count_elastic(const ElasticInverse& inverse) {
 [[noreturn]] void refuse_count(Eigen::Index count, Eigen::Index dofs,
                                Eigen::Index elastic) {
   throw InputError(fmt::format(
-      "{} eigenmodes asked for, but the mesh has {} free degrees of freedom "
-      "and so only {} elastic modes. Ask for fewer or refine the mesh.",
+      "{} eigenmodes requested, but the mesh has {} free degrees of freedom "
+      "and so only {} elastic modes. Request fewer or refine the mesh.",
       count, dofs, elastic));
 }
 
@@ -206,12 +206,11 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
       solver.compute(Spectra::SortRule::LargestMagn, kRestarts, kTolerance,
                      Spectra::SortRule::SmallestAlge);
   if (converged < count)
-    throw NumericalError(
-        fmt::format("eigenmodes: {} of {} converged in {} restarts; ask for "
-                    "fewer.{}",
-                    converged, count, kRestarts, inverse.conditioning()));
+    throw NumericalError(fmt::format(
+        "eigenmodes: {} of {} converged in {} restarts; request fewer.{}",
+        converged, count, kRestarts, inverse.conditioning()));
   if (inverse.matrices().is_scalar_mass()) return solver.eigenvectors();
-  // The recursion does not see what has no mass and lets its roundoff grow
+  // The recursion does not see massless motion and its round-off grows
   // (Nour-Omid, Parlett, Ericsson and Jensen, Math. Comp. 48, 1987).
   return inverse.solve_shifted(
       multiply_mass(inverse.matrices().M_s, solver.eigenvectors()));

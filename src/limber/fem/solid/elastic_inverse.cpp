@@ -84,8 +84,8 @@ MatrixX scale_to_unit_stiffness(const StructuralMatrices& matrices,
 constexpr double kLong = 20.0;  // s; eigenmodes take about as long again
 
 // @param order of degrees of freedom, those of a node adjacent
-void tell_factors(const SparseMatrix& M_s, const std::vector<int>& order,
-                  const Progress& progress) {
+void report_factors(const SparseMatrix& M_s, const std::vector<int>& order,
+                    const Progress& progress) {
   if (!progress) return;
   std::vector<int> nodes;
   for (std::size_t i = 0; i < order.size(); i += 3) {
@@ -108,7 +108,7 @@ ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
       shift_(choose_shift(matrices, R_, MR_, x)),
       order_(order_dofs(matrices.M_s)),
       conditioning_(fem::describe_conditioning(matrices, x)),
-      factor_((tell_factors(matrices.M_s, order_, progress),
+      factor_((report_factors(matrices.M_s, order_, progress),
                SparseCholesky(shift_stiffness(matrices, shift_), order_,
                               "stiffness matrix", conditioning_))) {
   report(progress, "factorising", 1.0);

@@ -139,13 +139,13 @@ template <class T>
     for (std::size_t j = 0; j < 3; ++j) C[i][j] = 2.0 * E[i][j];
     C[i][i] += 1.0;
   }
-  const T share = (lame.lambda * log_J - lame.mu) / (1.0 + growth);
+  const T fraction = (lame.lambda * log_J - lame.mu) / (1.0 + growth);
   Stress<T> stress;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {  // cofactors of C
       const std::size_t k = (i + 1) % 3, l = (i + 2) % 3;
       const std::size_t m = (j + 1) % 3, n = (j + 2) % 3;
-      stress.S[i][j] = share * (C[k][m] * C[l][n] - C[k][n] * C[l][m]);
+      stress.S[i][j] = fraction * (C[k][m] * C[l][n] - C[k][n] * C[l][m]);
     }
     stress.S[i][i] += lame.mu;
   }

@@ -169,11 +169,11 @@ ElementLabels label_elements(const Mesh& mesh, const VectorX& f, int count) {
     const std::size_t from =
         place_cut(elements, volume * cut / count, kWindow * volume / count);
     if (from == 0) {
-      throw InputError(fmt::format(
-          "{}: its {} elements do not give {} pieces along its length: a layer "
-          "of elements is longer than half a piece. Ask for fewer pieces or a "
-          "finer mesh.",
-          mesh.source, elements.size(), count));
+      throw InputError(
+          fmt::format("{}: its {} elements do not give {} pieces along its "
+                      "length: a layer of elements is longer than half a "
+                      "piece. Request fewer pieces or a finer mesh.",
+                      mesh.source, elements.size(), count));
     }
     for (std::size_t i = from; i < elements.size(); ++i) {
       labels[elements[i].number] = cut;
@@ -222,7 +222,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_node_pairs(
 
 /// Gives elements that share no face with their piece to the adjacent piece;
 /// unstructured meshes have some at every cut.
-/// @throws InputError if they are more than a small share
+/// @throws InputError if they are more than a small fraction
 void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
   constexpr double kSmall = 0.1;  // of a piece's elements
   constexpr int kMostRounds = 10;
@@ -247,7 +247,7 @@ void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
           kSmall * static_cast<double>(sizes.at(main))) {
         throw InputError(fmt::format(
             "{}: piece {} of {} along its length would be in two parts, of {} "
-            "and {} elements: it has branches or a hole there. Ask for another "
+            "and {} elements: it has branches or a hole there. Choose another "
             "number of pieces, or leave it whole.",
             mesh.source, label + 1, count, sizes.at(main), size));
       }

@@ -17,9 +17,9 @@ VectorX calc_lumped_mass(const Mesh& mesh,
           materials[static_cast<std::size_t>(block.regions[e])];
       const MatrixX M = calc_element_mass(
           *block.element, element_positions(mesh, block, e), material.density);
-      const VectorX share = M.diagonal() * (M.sum() / M.trace());
-      for (Eigen::Index a = 0; a < share.size(); ++a) {
-        mass[block.element_nodes(e)[a]] += share[a];
+      const VectorX fraction = M.diagonal() * (M.sum() / M.trace());
+      for (Eigen::Index a = 0; a < fraction.size(); ++a) {
+        mass[block.element_nodes(e)[a]] += fraction[a];
       }
     }
   }

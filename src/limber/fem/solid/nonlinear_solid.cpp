@@ -228,10 +228,10 @@ void NonlinearSolid::refuse(const Batch& batch, const Lane& J) const {
   // NaN fails every comparison: name the first of the four then.
   const auto at =
       std::min(static_cast<std::size_t>(lane), batch.tags.size() - 1);
-  throw NumericalError(fmt::format(
-      "{}: element {} is turned inside out (det F = {:.3g}); the motion is "
-      "beyond what the mesh can follow, or the step is too long",
-      source_, batch.tags[at], least));
+  throw NumericalError(
+      fmt::format("{}: element {} is inverted (det F = {:.3g}); the motion is "
+                  "beyond what the mesh can follow, or the step is too long",
+                  source_, batch.tags[at], least));
 }
 
 }  // namespace limber::fem

@@ -24,26 +24,26 @@ class StaticSolver {
   StaticSolution solve(const Matrix3X& load, const StaticSettings& settings) {
     StaticSolution solution{Matrix3X::Zero(3, mesh_.x.cols())};
     for (int step = 1; step <= settings.load_steps; ++step) {
-      const double share = static_cast<double>(step) / settings.load_steps;
+      const double fraction = static_cast<double>(step) / settings.load_steps;
       const char* why = "Newton's method does not converge";
       bool done = false;
       try {
-        done = balance(share * load, settings, solution);
+        done = balance(fraction * load, settings, solution);
       } catch (const NumericalError& error) {
-        fail(share, settings, error.what());
+        fail(fraction, settings, error.what());
       }
-      if (!done) fail(share, settings, why);
+      if (!done) fail(fraction, settings, why);
     }
     return solution;
   }
 
  private:
-  [[noreturn]] void fail(double share, const StaticSettings& settings,
+  [[noreturn]] void fail(double fraction, const StaticSettings& settings,
                          const std::string& why) const {
     throw NumericalError(fmt::format(
         "{}: no equilibrium between {:.4g} and {:.4g} of the load: {}. Take "
         "more load steps, or expect a limit point there.",
-        mesh_.source, share - 1.0 / settings.load_steps, share, why));
+        mesh_.source, fraction - 1.0 / settings.load_steps, fraction, why));
   }
 
   bool balance(const Matrix3X& load, const StaticSettings& settings,

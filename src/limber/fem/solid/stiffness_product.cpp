@@ -183,10 +183,10 @@ void StiffnessProduct::find_deformation(const Element& element,
   const Tensor3<C> H = multiply<C>(
       find_local_gradient<C>(element.rule->gradients[0], d),
       InverseMap(elements_->points[element.first_point].inverse.data()));
-  Tensor3<C> turn;
+  Tensor3<C> rotation;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      turn[i][j] = 0.5 * (H[i][j] - H[j][i]);
+      rotation[i][j] = 0.5 * (H[i][j] - H[j][i]);
     }
   }
   for (std::size_t a = 1; a < nodes; ++a) {
@@ -196,7 +196,7 @@ void StiffnessProduct::find_deformation(const Element& element,
       for (int c = 0; c < C; ++c) {
         Real rest = edge[a][i][index(c)];
         for (std::size_t j = 0; j < 3; ++j) {
-          rest -= Real{turn[i][j][c]} * arm[static_cast<Eigen::Index>(j)];
+          rest -= Real{rotation[i][j][c]} * arm[static_cast<Eigen::Index>(j)];
         }
         d[a][i][c] = static_cast<double>(rest);
       }

@@ -16,7 +16,7 @@
 namespace limber::fem {
 namespace {
 
-using Side = ModelSkin::Side;
+using Side = ModelSurface::Side;
 
 class StructureDrawer {
  public:
@@ -26,13 +26,13 @@ class StructureDrawer {
   DrawnStructure draw() {
     next_tag_ = find_first_tag();
     for (int n = 0; n < static_cast<int>(model_.tags.size()); ++n)
-      model_.skin.bases.push_back(n);
-    model_.skin.sides.assign(model_.tags.size(), Side::none);
+      model_.mesh_surface.bases.push_back(n);
+    model_.mesh_surface.sides.assign(model_.tags.size(), Side::none);
     add_led_nodes();
     draw_shells();
     for (const StructureBeam& beam : structure_.beams) draw_beam(beam);
     draw_solids();
-    fill_skin();
+    fill_surface();
     finish();
     return std::move(drawn_);
   }
@@ -66,8 +66,8 @@ class StructureDrawer {
   /// A node at `d` from another, with which it moves. @returns its index
   int add_node(int node, const Vector3& d, Side side = Side::none) {
     const auto drawn = static_cast<int>(model_.tags.size());
-    model_.skin.bases.push_back(placed_.places[index(node)]);
-    model_.skin.sides.push_back(side);
+    model_.mesh_surface.bases.push_back(placed_.places[index(node)]);
+    model_.mesh_surface.sides.push_back(side);
     model_.tags.push_back(next_tag_++);
     points_.emplace_back(structure_.x.col(node) + d);
     const Matrix3 turn = -skew(d);
@@ -207,34 +207,34 @@ class StructureDrawer {
   }
 
   /// Moduli of faces: of a ply across its fibres, as through its thickness.
-  void fill_skin() {
-    ModelSkin& skin = model_.skin;
+  void fill_surface() {
+    ModelSurface& mesh_surface = model_.mesh_surface;
     const double area = placed_.solids.unit * placed_.solids.unit;
     for (const Laminate& laminate : structure_.laminates)
-      skin.materials.push_back(
+      mesh_surface.materials.push_back(
           {laminate.outer.E_2 / area, laminate.outer.nu_12, 0.0});
     for (const BeamProperty& property : structure_.beam_properties) {
       const BeamMaterial& m = property.material;
-      skin.materials.push_back(
+      mesh_surface.materials.push_back(
           {m.youngs_modulus / area, m.poissons_ratio(), 0.0});
     }
-    const auto first = static_cast<int>(skin.materials.size());
-    skin.materials.insert(skin.materials.end(),
-                          placed_.solids.materials.begin(),
-                          placed_.solids.materials.end());
+    const auto first = static_cast<int>(mesh_surface.materials.size());
+    mesh_surface.materials.insert(mesh_surface.materials.end(),
+                                  placed_.solids.materials.begin(),
+                                  placed_.solids.materials.end());
     constexpr std::array<LinearCell, 2> kCells = {LinearCell::wedge,
                                                   LinearCell::hexahedron};
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (cells_[i].tags.empty()) continue;
       cells_[i].element =
           std::make_shared<const ReferenceElement>(make_linear_cell(kCells[i]));
-      skin.mesh.blocks.push_back(std::move(cells_[i]));
+      mesh_surface.mesh.blocks.push_back(std::move(cells_[i]));
     }
     for (ElementBlock block : placed_.solids.mesh.blocks) {
       for (int& node : block.nodes)
         node = placed_.places[index(placed_.solid_nodes[index(node)])];
       for (int& region : block.regions) region += first;
-      skin.mesh.blocks.push_back(std::move(block));
+      mesh_surface.mesh.blocks.push_back(std::move(block));
     }
   }
 

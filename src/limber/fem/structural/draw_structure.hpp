@@ -53,9 +53,9 @@ struct DrawnStructure {
 
 /// Adds condensed nodes on the faces of shells and the outlines of beams, which
 /// move with their nodes as rigid arms, with the triangles of the closed
-/// surface between them, and those of the solids' surface; the skin, of the
-/// solids that these nodes make; and the condensed rows of nodes that others
-/// lead.
+/// surface between them, and those of the solids' surface; the whole surface,
+/// of the solids that these nodes make; and the condensed rows of nodes that
+/// others lead.
 DrawnStructure draw_structure(const PlacedStructure& placed,
                               MatrixModel& model);
 

@@ -6,8 +6,8 @@
 #include "limber/common/records/manifest.hpp"
 #include "limber/common/types.hpp"
 
-/// What a kind of modal elasticity provides. A kind that lacks a function does
-/// not compile.
+/// Functions that a kind of modal elasticity provides. A kind that lacks a
+/// function does not compile.
 namespace limber::flexbody {
 
 /// m modal coordinates q [kg^1/2 m], read without a copy.
@@ -42,7 +42,7 @@ concept HasDiscreteGradient = requires(const Kind& kind, const ModesIn& q0,
 ///
 /// `eigenvalues`: m [rad^2/s^2] if modes are independent linear oscillators,
 /// dV/dq_k = eigenvalue_k q_k, else null. Everything that takes each mode alone
-/// (closed forms, advice on levels, factors of O(m)) asks for them.
+/// (closed forms, advice on levels, factors of O(m)) needs them.
 /// `is_linear`: the tangent is constant.
 /// `rest_stiffness`: diagonal of the tangent at q = 0, and whether that is all
 /// of it; `lowest_rest_stiffness` its smallest eigenvalue [rad^2/s^2].

@@ -195,7 +195,7 @@ void read_mass_rows(const Reader& reader, ReducedBody& body) {
   body.rows.x_B = reader.matrix("rows/x_B", 3, n);
   body.rows.Phi_B = reader.matrix("rows/Phi_B", 3 * n, m);
   const auto corners = reader.sizes("rows/triangles", -1);
-  if (corners.size() % 3 != 0) reader.fail("'rows/triangles' is cut short");
+  if (corners.size() % 3 != 0) reader.fail("'rows/triangles' is truncated");
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     body.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
     for (const std::size_t c : body.triangles.back()) {
@@ -277,18 +277,18 @@ void check_seal(const std::filesystem::path& file) {
         "is not a reduced body of this program's; make one of its mesh");
   }
   if (*version < kBodyFileVersion || *version > kSectionBodyFileVersion) {
-    throw problem(fmt::format(
-        "has layout version {}; this program reads {} to {}. Make the reduced "
-        "body anew",
-        *version, kBodyFileVersion, kSectionBodyFileVersion));
+    throw problem(
+        fmt::format("has layout version {}; this program reads {} to {}. "
+                    "Reduce the body again",
+                    *version, kBodyFileVersion, kSectionBodyFileVersion));
   }
   const auto read = [&](char* out, std::size_t size) {
     return in.read(out, size);
   };
   if (!is_whole || seal != make_seal(*version, calc_digest(read))) {
     throw problem(
-        "is damaged (its digest does not match its content); make the reduced "
-        "body anew");
+        "is damaged (its digest does not match its content); reduce the body "
+        "again");
   }
 }
 

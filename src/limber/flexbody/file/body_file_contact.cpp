@@ -166,7 +166,7 @@ std::vector<std::array<int, kFaceNodes>> read_faces(
     const BodyFileReader& reader, const std::string& name, std::size_t count) {
   const std::vector<std::int64_t> nodes = reader.in().read_integers(name);
   if (nodes.size() % kFaceNodes != 0) {
-    reader.fail(fmt::format("'{}' is cut short", name));
+    reader.fail(fmt::format("'{}' is truncated", name));
   }
   std::vector<std::array<int, kFaceNodes>> faces(nodes.size() / kFaceNodes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {

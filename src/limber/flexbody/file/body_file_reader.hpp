@@ -49,7 +49,7 @@ class BodyFileReader {
   }
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(
-        fmt::format("'{}': {}; the reduced body is damaged, make it anew",
+        fmt::format("'{}': {}; the reduced body is damaged; reduce it again",
                     file_.string(), what));
   }
   [[nodiscard]] const Hdf5File& in() const { return in_; }

@@ -32,14 +32,14 @@ void write_selection(Hdf5File& out,
   const auto count = static_cast<Eigen::Index>(record.cases.size());
   std::string names;
   MatrixX figures(count, 3);
-  std::vector<std::int64_t> asked_counts;
-  std::vector<std::int64_t> asked;
+  std::vector<std::int64_t> requested_counts;
+  std::vector<std::int64_t> requested;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SelectedCase& item = record.cases[static_cast<std::size_t>(i)];
     names += item.name + '\n';
     figures.row(i) << item.reached, item.eigenmode_error, item.basis_error;
-    asked_counts.push_back(static_cast<std::int64_t>(item.modes.size()));
-    asked.insert(asked.end(), item.modes.begin(), item.modes.end());
+    requested_counts.push_back(static_cast<std::int64_t>(item.modes.size()));
+    requested.insert(requested.end(), item.modes.begin(), item.modes.end());
   }
   out.write("selection/is_automatic",
             std::vector<std::int64_t>{selection ? 1 : 0}, "1",
@@ -58,9 +58,10 @@ void write_selection(Hdf5File& out,
   out.write(
       "selection/case_figures", figures, "1",
       "a case a row: share reached, static error by eigenmodes, by basis");
-  out.write("selection/case_mode_counts", asked_counts, "1",
+  out.write("selection/case_mode_counts", requested_counts, "1",
             "eigenmodes that each case asks for");
-  out.write("selection/case_modes", asked, "1", "these, case by case, from 0");
+  out.write("selection/case_modes", requested, "1",
+            "these, case by case, from 0");
 }
 
 void write_locking(Hdf5File& out, const std::optional<MeshLocking>& locking) {
@@ -124,9 +125,10 @@ void write_field(Hdf5File& out, const std::string& at,
             "1 if the body was reduced with such a field");
   out.write(at + "eta", MatrixX(field.eta), unit,
             "modal coordinates, Phi' M u");
-  out.write(at + "shares",
-            MatrixX(Eigen::Vector2d(field.rigid_share, field.missed_share)),
-            "1", "left out: rigid motion, deformation outside the basis");
+  out.write(
+      at + "shares",
+      MatrixX(Eigen::Vector2d(field.rigid_fraction, field.missed_fraction)),
+      "1", "left out: rigid motion, deformation outside the basis");
   out.write(at + "key", field.key, "digest of the field");
 }
 
@@ -142,17 +144,18 @@ std::optional<SelectionRecord> read_selection(const BodyFileReader& reader) {
       split_lines(reader.in().read_text("selection/case_names"));
   const auto count = static_cast<std::int64_t>(names.size());
   const MatrixX figures = reader.matrix("selection/case_figures", count, 3);
-  const auto asked_counts = reader.sizes("selection/case_mode_counts", count);
-  const auto asked = reader.sizes("selection/case_modes", -1);
+  const auto requested_counts =
+      reader.sizes("selection/case_mode_counts", count);
+  const auto requested = reader.sizes("selection/case_modes", -1);
   std::size_t at = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (asked_counts[i] > asked.size() - at)
-      reader.fail("'selection/case_modes' is cut short");
+    if (requested_counts[i] > requested.size() - at)
+      reader.fail("'selection/case_modes' is truncated");
     const auto row = static_cast<Eigen::Index>(i);
     SelectedCase item{
         names[i], {}, figures(row, 0), figures(row, 1), figures(row, 2)};
-    for (const std::size_t end = at + asked_counts[i]; at < end; ++at)
-      item.modes.push_back(static_cast<int>(asked[at]));
+    for (const std::size_t end = at + requested_counts[i]; at < end; ++at)
+      item.modes.push_back(static_cast<int>(requested[at]));
     record.cases.push_back(std::move(item));
   }
   return record;
@@ -178,9 +181,9 @@ std::optional<ProjectedField> read_field(const BodyFileReader& reader,
                                          const std::string& at,
                                          Eigen::Index m) {
   if (reader.integer(at + "is_given") == 0) return std::nullopt;
-  const MatrixX shares = reader.matrix(at + "shares", 2, 1);
-  return ProjectedField{reader.matrix(at + "eta", m, 1), shares(0, 0),
-                        shares(1, 0), reader.in().read_text(at + "key")};
+  const MatrixX fractions = reader.matrix(at + "shares", 2, 1);
+  return ProjectedField{reader.matrix(at + "eta", m, 1), fractions(0, 0),
+                        fractions(1, 0), reader.in().read_text(at + "key")};
 }
 
 }  // namespace limber::flexbody

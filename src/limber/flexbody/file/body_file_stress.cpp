@@ -73,8 +73,8 @@ std::vector<int> read_choices(const BodyFileReader& reader,
   for (const std::size_t value :
        reader.sizes(name, static_cast<std::int64_t>(count))) {
     if (static_cast<Eigen::Index>(value) >= limit) {
-      reader.fail(
-          fmt::format("'{}' holds {}; expected below {}", name, value, limit));
+      reader.fail(fmt::format("'{}' has the value {}; expected below {}", name,
+                              value, limit));
     }
     choices.push_back(static_cast<int>(value));
   }

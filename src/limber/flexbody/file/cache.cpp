@@ -161,7 +161,7 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
   }
 }
 
-// With stress modes, so that a later run that asks for stress need not reduce
+// With stress modes, so that a later run that requests stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
 // Matrices, and decks of beams and shells, which bring their materials, have
 // none.

@@ -68,7 +68,7 @@ struct CachedBody {
 /// which mesh would result (flexbody/file/mesh_index.hpp), none is made; nor if
 /// the body came with Limber, in the folder `shipped`
 /// (flexbody/file/shipped_mesh.hpp).
-/// Entries have stress modes whether the recipe asks for them or not, except
+/// Entries have stress modes whether the recipe requires them or not, except
 /// with second-order kinematics; one without is replaced when they are needed.
 ///
 /// An entry that is damaged, has another key, belongs to another user or is

@@ -41,8 +41,8 @@ void write_origin(const std::filesystem::path& body,
                   const std::filesystem::path& mesh);
 
 /// Removes the files of these items while no other process cleans the folder. A
-/// program that reads one at the time is not disturbed; one that needs it later
-/// makes it again. Ignores files that no longer exist.
+/// program that is reading one is not disturbed; one that needs it later
+/// recreates it. Ignores files that no longer exist.
 /// @throws InputError if another process holds the folder, or if a file cannot
 /// be removed.
 void remove_from_cache(const std::filesystem::path& folder,

@@ -82,10 +82,11 @@ std::optional<MeshRecord> find_mesh_record(
     Entry entry;
     wire(entry);
     wire.finish();
-    const bool is_asked =
+    const bool is_requested =
         entry.request == request && (mesher.empty() || entry.mesher == mesher);
     const std::vector<FileStamp>& files = entry.record.files;
-    if (!is_asked || !std::all_of(files.begin(), files.end(), is_unchanged)) {
+    if (!is_requested ||
+        !std::all_of(files.begin(), files.end(), is_unchanged)) {
       return std::nullopt;
     }
     entry.record.is_repeatable = true;

@@ -196,10 +196,10 @@ double InertialForceBound::calc_margin(double alpha, double Omega,
 InertialDisplacementBound::InertialDisplacementBound(const ReducedBody& body,
                                                      Onset onset) {
   if (body.clamped)
-    throw InputError(fmt::format(
-        "body '{}' is clamped to the world and does not turn: it has no "
-        "decision boundary.",
-        body.name));
+    throw InputError(
+        fmt::format("body '{}' is clamped to the world and does not rotate: it "
+                    "has no decision boundary.",
+                    body.name));
   const ModalAnswers answers = find_answers(body);
   const Eigen::Index nodes = body.rows.x_B.cols();
   LIMBER_EXPECT(body.rows.Phi_B.rows() == 3 * nodes);

@@ -53,7 +53,7 @@ VectorX find_angles(const std::vector<double>& times, double start,
   return angles;
 }
 
-// Shares of the period, which sum to one.
+// Fractions of the period, which sum to one.
 VectorX find_weights(const std::vector<double>& times) {
   const Eigen::Map<const VectorX> t(times.data(), std::ssize(times));
   const Eigen::Index intervals = t.size() - 1;
@@ -67,11 +67,11 @@ VectorX find_weights(const std::vector<double>& times) {
 MatrixX find_coefficients(const MatrixX& A, const MatrixX& b) {
   auto [x, rank] = dense::solve_least_squares(A, b, 1.0 / kMostAmplification);
   if (rank < A.cols()) {
-    throw InputError(fmt::format(
-        "load table: its times are too unevenly spaced for {} harmonics, of "
-        "which they determine only {} of {} coefficients; ask for fewer "
-        "harmonics or fill the gaps",
-        (A.cols() - 1) / 2, rank, A.cols()));
+    throw InputError(
+        fmt::format("load table: its times are too unevenly spaced for {} "
+                    "harmonics, of which they determine only {} of {} "
+                    "coefficients; use fewer harmonics or fill the gaps",
+                    (A.cols() - 1) / 2, rank, A.cols()));
   }
   return x;
 }

@@ -28,30 +28,30 @@ MatrixX rigid_motions(const Matrix3X& x) {
   return motions;
 }
 
-std::vector<int> find_order(const VectorX& shares, SelectionOrder order) {
-  std::vector<int> modes(static_cast<std::size_t>(shares.size()));
+std::vector<int> find_order(const VectorX& fractions, SelectionOrder order) {
+  std::vector<int> modes(static_cast<std::size_t>(fractions.size()));
   std::iota(modes.begin(), modes.end(), 0);
   if (order == SelectionOrder::largest_first)
     std::stable_sort(modes.begin(), modes.end(),
-                     [&](int a, int b) { return shares[a] > shares[b]; });
+                     [&](int a, int b) { return fractions[a] > fractions[b]; });
   return modes;
 }
 
-/// Roundoff of a sum of m shares relative to its total.
+/// Roundoff of a sum of m fractions relative to its total.
 double roundoff(Eigen::Index count) {
   return 4e-16 * static_cast<double>(count + 1);
 }
 
-std::vector<int> select_for_case(const VectorX& shares, double total,
+std::vector<int> select_for_case(const VectorX& fractions, double total,
                                  const SelectionOptions& options) {
   std::vector<int> selected;
   if (total == 0.0) return selected;
   const double target = options.threshold * total;
-  const double slack = roundoff(shares.size()) * total;
+  const double slack = roundoff(fractions.size()) * total;
   double sum = 0.0;
-  for (const int mode : find_order(shares, options.order)) {
+  for (const int mode : find_order(fractions, options.order)) {
     if (sum >= target - slack) break;
-    sum += shares[mode];
+    sum += fractions[mode];
     selected.push_back(mode);
   }
   std::sort(selected.begin(), selected.end());
@@ -106,31 +106,32 @@ Participation calc_base_participation(const MatrixX& Phi,
   return participation;
 }
 
-ModeSelection select_modes(const MatrixX& shares, const VectorX& totals,
+ModeSelection select_modes(const MatrixX& fractions, const VectorX& totals,
                            const SelectionOptions& options) {
-  LIMBER_EXPECT(shares.cols() == totals.size());
-  LIMBER_EXPECT((shares.array() >= 0.0).all());
+  LIMBER_EXPECT(fractions.cols() == totals.size());
+  LIMBER_EXPECT((fractions.array() >= 0.0).all());
   LIMBER_EXPECT((totals.array() >= 0.0).all());
   if (!(options.threshold >= 0.0 && options.threshold <= 1.0))
-    throw InputError(fmt::format(
-        "mode selection: the threshold is {:g}; it is a share of the whole, "
-        "from 0 to 1 (0.9 is 90 %).",
-        options.threshold));
+    throw InputError(
+        fmt::format("mode selection: the threshold is {:g}; it is a fraction "
+                    "of the whole, from 0 to 1 (0.9 is 90 %).",
+                    options.threshold));
   ModeSelection selection;
   std::set<int> joined;
   for (Eigen::Index k = 0; k < totals.size(); ++k) {
     selection.cases.push_back(
-        select_for_case(shares.col(k), totals[k], options));
+        select_for_case(fractions.col(k), totals[k], options));
     joined.insert(selection.cases.back().begin(), selection.cases.back().end());
   }
   selection.modes.assign(joined.begin(), joined.end());
   selection.reached = VectorX::Ones(totals.size());
   for (Eigen::Index k = 0; k < totals.size(); ++k) {
     if (totals[k] == 0.0) continue;
-    selection.reached[k] = sum_of(shares.col(k), selection.modes) / totals[k];
+    selection.reached[k] =
+        sum_of(fractions.col(k), selection.modes) / totals[k];
     selection.complete =
         selection.complete &&
-        selection.reached[k] >= options.threshold - roundoff(shares.rows());
+        selection.reached[k] >= options.threshold - roundoff(fractions.rows());
   }
   return selection;
 }

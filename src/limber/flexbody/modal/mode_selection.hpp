@@ -28,7 +28,7 @@ namespace limber::flexbody {
 /// modes it sums to the load's compliance, f^T K^+ f.
 ///
 /// Equation   c_j = (phi_j^T f)^2 / lambda_j
-/// Source     spectral form of K^+; the shares of modal strain energy
+/// Source     spectral form of K^+; the fractions of modal strain energy
 /// @param modal_loads Phi^T f, m x k [kg^-1/2 N]; @param lambda m > 0
 [[nodiscard]] MatrixX calc_modal_compliance(const MatrixX& modal_loads,
                                             const VectorX& lambda);
@@ -53,8 +53,8 @@ struct Participation {
 ///            of the free nodes alone (whose mass `rigid_mass` then is), on
 ///            which Phi is complete. With those of the whole mesh, Phi zero on
 ///            the clamp, the factors are the loads of a moving base with
-///            consistent mass, and the sum is below `rigid_mass` by the share
-///            of the clamp.
+///            consistent mass, and the sum is below `rigid_mass` by the
+///            fraction of the clamp.
 /// @param Phi 3N x m; @param M_s N x N, both triangles [kg]
 /// @param x 3 x N relative to the centre of rotation [m]
 [[nodiscard]] Participation calc_participation(
@@ -68,14 +68,14 @@ struct Participation {
     const MatrixX& Phi, const Eigen::SparseMatrix<double>& M_s,
     const MatrixX& motions);
 
-/// Order in which modes are taken until their shares reach the threshold.
+/// Order in which modes are taken until their fractions reach the threshold.
 enum class SelectionOrder {
   largest_first,  ///< as few modes as possible (the report's Table 2)
   given,          ///< the leading modes: "the first m"
 };
 
 struct SelectionOptions {
-  double threshold = 0.9;  ///< share of the total to reach, in [0, 1] [-]
+  double threshold = 0.9;  ///< fraction of the total to reach, in [0, 1] [-]
   SelectionOrder order = SelectionOrder::largest_first;
 };
 
@@ -83,18 +83,18 @@ struct ModeSelection {
   std::vector<int> modes;  ///< indices of the modes of any case, ascending
   std::vector<std::vector<int>>
       cases;             ///< indices of those of each case, ascending
-  VectorX reached;       ///< share of `modes` in each case [-]
+  VectorX reached;       ///< fraction of `modes` in each case [-]
   bool complete = true;  ///< false: even all given modes miss the threshold
 };
 
-/// The modes whose shares reach a threshold in every load case (or, with rows
-/// of effective modal mass transposed, in every direction of base motion).
-/// @param shares m x k, none negative, any unit; @param totals k, the sum over
-/// all modes of the body: the column sums if all were computed, f^T K^+ f,
+/// The modes whose fractions reach a threshold in every load case (or, with
+/// rows of effective modal mass transposed, in every direction of base motion).
+/// @param fractions m x k, none negative, any unit; @param totals k, the sum
+/// over all modes of the body: the column sums if all were computed, f^T K^+ f,
 /// `rigid_mass`. A case with total zero needs no mode.
 /// @throws InputError for a threshold outside [0, 1]; ContractError for sizes
 /// or negative values.
-[[nodiscard]] ModeSelection select_modes(const MatrixX& shares,
+[[nodiscard]] ModeSelection select_modes(const MatrixX& fractions,
                                          const VectorX& totals,
                                          const SelectionOptions& options = {});
 
@@ -122,7 +122,7 @@ struct HarmonicError {
 /// Limits     undamped, omega^2 < lambda_cut
 /// @param lambda_cut lowest omitted eigenvalue, or any value below it
 /// @param omega load's angular frequency [rad/s]
-/// @throws InputError if omega^2 >= lambda_cut: such a mode must be kept.
+/// @throws InputError if omega^2 >= lambda_cut: such a mode must be retained.
 [[nodiscard]] HarmonicError calc_harmonic_error(double static_error,
                                                 double lambda_cut,
                                                 double omega);

@@ -71,7 +71,7 @@ std::vector<PieceDifference> compare_directions(const Matrix3& whole,
 }
 
 /// Name of the first interface that holds a free link; empty without one.
-std::string find_hold(const ReducedBody& whole) {
+std::string find_held_interface(const ReducedBody& whole) {
   for (const InterfaceTable& table : whole.interfaces)
     if (table.rotation_rank() == 3) return table.name;
   return {};
@@ -117,17 +117,18 @@ std::vector<PieceDifference> compare_pieces(
   const PieceAssembly several(pieces);
   std::vector<PieceDifference> largest;
   add_largest(compare_frequencies(one, several), largest);
-  const std::string hold = one.is_free() ? find_hold(*whole) : std::string();
-  if (one.is_free() && hold.empty()) return largest;
+  const std::string held =
+      one.is_free() ? find_held_interface(*whole) : std::string();
+  if (one.is_free() && held.empty()) return largest;
   std::vector<PieceDifference> along, about;
   for (const InterfaceTable& table : whole->interfaces) {
-    if (table.name == hold) continue;
-    const Matrix6 exact = one.find_flexibility(table.name, hold);
+    if (table.name == held) continue;
+    const Matrix6 exact = one.find_flexibility(table.name, held);
     if (!moves(table, exact)) continue;
-    const Matrix6 found = several.find_flexibility(table.name, hold);
+    const Matrix6 found = several.find_flexibility(table.name, held);
     const std::string place =
         fmt::format("at '{}'{}", table.name,
-                    hold.empty() ? "" : fmt::format(" with '{}' held", hold));
+                    held.empty() ? "" : fmt::format(" with '{}' held", held));
     append(
         compare_directions(exact.topLeftCorner<3, 3>(),
                            found.topLeftCorner<3, 3>(), "along", place, "m/N"),

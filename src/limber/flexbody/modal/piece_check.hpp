@@ -8,7 +8,7 @@
 #include "limber/flexbody/modal/piece_assembly.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 
-/// What cutting a link costs: its pieces, joined, against the whole.
+/// Error of cutting a link: its pieces, joined, compared with the whole.
 namespace limber::flexbody {
 
 /// A quantity of the link in one piece and in several.

@@ -53,13 +53,13 @@ struct ContactSlice {
   MatrixX motion_B;  ///< 6 x m [kg^-1/2, kg^-1/2 / m]
   /// R, of what motion_B lacks, positive semidefinite [m/N]
   Matrix3 flexibility_B = Matrix3::Zero();
-  /// The share of R by which the modes deform the slice itself [m/N]
+  /// The fraction of R by which the modes deform the slice itself [m/N]
   Matrix3 own_B = Matrix3::Zero();
 };
 
-/// The part of a body's surface that may touch others: its nodes with the
-/// smoothed motion of a patch around each, and the residual flexibility of the
-/// basis there.
+/// The part of a body's surface that may be in contact with others: its nodes
+/// with the smoothed motion of a patch around each, and the residual
+/// flexibility of the basis there.
 ///
 /// Equation   u_p = n . Phi_B(p) eta + R_p f,  f a normal force on the patch
 ///            under Hertz's pressure of radius b: w^T of the displacements,
@@ -76,7 +76,7 @@ struct ContactSurface {
   Matrix3X x_B;   ///< 3 x n undeformed, relative to the c.m. [m]
   MatrixX Phi_B;  ///< 3n x m: w^T Phi, mean of the modes over the patch around
                   ///< each node [kg^-1/2]
-  /// n: R_p of a unit normal force on the patch without Hertz's own share
+  /// n: R_p of a unit normal force on the patch without Hertz's own fraction
   /// [m/N]. Negative where the residual flexibility is smaller than that share.
   /// Interpolate it linearly between the corners of a face.
   VectorX residual;

@@ -31,14 +31,15 @@ struct NodalPiece {
 /// nodes in its patch, each part or slice as a NodalPiece.
 ///
 /// Equation   residual = -3 / (5 E' b): the mesh itself deforms locally, so
-///            Hertz's share is subtracted
+///            Hertz's fraction is subtracted
 struct FullContactSurface {
   ContactSurface surface;
   NodalMeans means;
   std::vector<NodalPiece> pieces;  ///< of all parts, or of all slices
 };
 
-/// Additional interface of a FullBodySolver whose body may touch others.
+/// Additional interface of a FullBodySolver whose body may be in contact with
+/// others.
 class ContactSurfaces {
  public:
   ContactSurfaces() = default;

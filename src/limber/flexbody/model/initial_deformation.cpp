@@ -12,7 +12,7 @@
 namespace limber::flexbody {
 namespace {
 
-/// Smallest share that is reported.
+/// Smallest fraction that is reported.
 constexpr double kSmall = 0.01;
 /// Remainder of a rigid field by roundoff.
 constexpr double kRoundoffOfField = 1e-10;
@@ -35,9 +35,10 @@ ProjectedField project_field(const VectorX& u, const MatrixX& Phi,
   field.eta = Phi.transpose() * multiply_mass(M_s, elastic);
   const double whole = std::sqrt(u.dot(momentum));
   const double deformed = calc_norm(elastic, M_s);
-  if (whole > 0.0) field.rigid_share = rigid.norm() / whole;
+  if (whole > 0.0) field.rigid_fraction = rigid.norm() / whole;
   if (deformed > kRoundoffOfField * whole) {
-    field.missed_share = calc_norm(elastic - Phi * field.eta, M_s) / deformed;
+    field.missed_fraction =
+        calc_norm(elastic - Phi * field.eta, M_s) / deformed;
   }
   return field;
 }
@@ -51,17 +52,17 @@ std::string find_field_key(const VectorX& u) {
 std::vector<std::string> describe_losses(const ProjectedField& field,
                                          const std::string& what) {
   std::vector<std::string> texts;
-  if (field.rigid_share > kSmall) {
+  if (field.rigid_fraction > kSmall) {
     texts.push_back(fmt::format(
         "{:.3g} % of the {} (in the norm of mass) is rigid motion and is left "
-        "out; give that by [initial.base] or [initial.joints]",
-        100.0 * field.rigid_share, what));
+        "out; specify it by [initial.base] or [initial.joints]",
+        100.0 * field.rigid_fraction, what));
   }
-  if (field.missed_share > kSmall) {
+  if (field.missed_fraction > kSmall) {
     texts.push_back(fmt::format(
         "{:.3g} % of the {} (deformation, in the norm of mass) is not in the "
         "basis and is left out; keep more modes",
-        100.0 * field.missed_share, what));
+        100.0 * field.missed_fraction, what));
   }
   return texts;
 }

@@ -19,9 +19,9 @@ struct ProjectedField {
   VectorX eta;  ///< m [kg^1/2 m, or that a second]
   /// |R R^T M u|_M / |u|_M: rigid motion, which belongs to the body's frame,
   /// not to its modes [-].
-  double rigid_share = 0.0;
+  double rigid_fraction = 0.0;
   /// |rest|_M / |u - R R^T M u|_M: deformation outside the basis [-].
-  double missed_share = 0.0;
+  double missed_fraction = 0.0;
   std::string key;  ///< find_field_key of the field
 };
 
@@ -40,7 +40,7 @@ struct InitialDeformation {
 /// Digest of a field's values.
 [[nodiscard]] std::string find_field_key(const VectorX& u);
 
-/// A text for each share above 1 %, with its value.
+/// A text for each fraction above 1 %, with its value.
 /// @param what the field is, e.g. "initial velocity"
 [[nodiscard]] std::vector<std::string> describe_losses(
     const ProjectedField& field, const std::string& what);

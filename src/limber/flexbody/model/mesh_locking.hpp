@@ -6,7 +6,7 @@
 
 namespace limber::flexbody {
 
-/// What elements of first order cost: they lock in bending. Stored with the
+/// Error of first-order elements, which lock in bending. Stored with the
 /// body.
 struct MeshLocking {
   double frequency = 0.0;  ///< lowest elastic one of the mesh [Hz]

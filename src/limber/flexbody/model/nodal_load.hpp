@@ -9,7 +9,7 @@ namespace limber::flexbody {
 
 /// Nodal forces that change in time, reduced once so that a step needs no
 /// nodes. Expressed in the body frame B; column i applies on [times[i],
-/// times[i+1]), nothing before, the last column without end.
+/// times[i+1]), zero before, the last column from its time on.
 ///
 /// Equation   F = sum_n f_n, M = sum_n (x_n + Phi_n eta) x f_n, Q = Phi^T f;
 ///            at level nonlinear m counts the products of paired modes, too,

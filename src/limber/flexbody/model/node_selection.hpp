@@ -61,8 +61,8 @@ struct CylinderNodes {
 using NodeSelection = std::variant<GroupNodes, TaggedNode, NearestNode,
                                    BoxNodes, PlaneNodes, CylinderNodes>;
 
-/// Share of the body's longest edge within which a node is on a plane or on a
-/// cylinder's wall [-].
+/// Fraction of the body's longest edge within which a node is on a plane or on
+/// a cylinder's wall [-].
 inline constexpr double kNearness = 1e-6;
 
 /// @param point of the plane [m]

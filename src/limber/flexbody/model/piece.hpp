@@ -15,7 +15,7 @@ struct Piece {
   int index = 0;  ///< which of them, from 0; the first is at the lower end
 };
 
-/// Whether a mesh is worth cutting.
+/// Whether a mesh should be cut.
 struct PieceAdvice {
   int count = 1;       ///< number of pieces
   std::string reason;  ///< why it stays whole

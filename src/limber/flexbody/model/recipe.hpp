@@ -94,7 +94,7 @@ struct NodalField {
   VectorX values;    ///< 3 x free nodes [m or m/s]
 };
 
-/// Measure of a mode's share of a load case; docs/theory/choosing.md.
+/// Measure of a mode's fraction of a load case; docs/theory/choosing.md.
 enum class ModeMeasure {
   compliance,  ///< work of the load on the mode's static response
   report,      ///< the report's effective mass, which needs all modes
@@ -113,7 +113,7 @@ struct ExpectedImpact {
   double speed = 0.0;      ///< of approach, > 0 [m/s]
 };
 
-/// Selects those of the lowest eigenmodes that reach a share of every load
+/// Selects those of the lowest eigenmodes that reach a fraction of every load
 /// case. The load cases are the recipe's load patterns and nodal forces; if it
 /// has neither, the forces and moments that its interfaces can carry. Of
 /// impacts, all modes until two periods of the highest fit into their duration.

@@ -116,7 +116,7 @@ struct ReducedBody {
   std::vector<InterfaceTable> interfaces;
   std::vector<std::array<std::size_t, 3>> triangles;  ///< surface, as row
                                                       ///< indices, outward
-  std::vector<ContactSurface> contact_surfaces;       ///< those asked for
+  std::vector<ContactSurface> contact_surfaces;       ///< those requested
   std::size_t mesh_nodes = 0;                         ///< count
   std::size_t mesh_elements = 0;                      ///< count
   std::size_t mesh_boundary_nodes = 0;                ///< count
@@ -125,8 +125,8 @@ struct ReducedBody {
   std::vector<LoadModesRecord> load_modes;   ///< of nodal forces
   InitialDeformation initial;  ///< projections of the recipe's fields
   std::string content_key;     ///< hash of all inputs
-  std::optional<QuadraticManifold> manifold;  ///< if asked for
-  std::optional<StressModes> stress;          ///< if asked for
+  std::optional<QuadraticManifold> manifold;  ///< if requested
+  std::optional<StressModes> stress;          ///< if requested
 
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(lambda.size());

@@ -8,7 +8,7 @@
 
 namespace limber::flexbody {
 
-/// What stress modes of beams and shells have besides: where in the section
+/// Additional data of stress modes of beams and shells: where in the section
 /// each point is, and section forces. Empty for solids.
 struct SectionModes {
   std::vector<std::size_t> nodes;  ///< p: row of the node of each point

@@ -8,10 +8,10 @@
 namespace limber::flexbody {
 namespace {
 
-/// Roundoff of a share.
+/// Roundoff of a fraction.
 constexpr double kRoundoffOfRecord = 1e-9;
 
-double percent(double share) { return 100.0 * share; }
+double percent(double fraction) { return 100.0 * fraction; }
 
 /// Cases below the threshold, the worst first.
 std::vector<const SelectedCase*> find_missed(const SelectionRecord& record) {
@@ -30,7 +30,7 @@ std::string describe(const SelectedCase& item, const SelectionRecord& record) {
   return fmt::format(
       "automatic modes: {} candidates reach {:.4g} % of '{}' by measure '{}', "
       "not {:.4g} %; static error {:.3g} % by them, {:.3g} % by the whole "
-      "basis. Allow more candidates or ask for less.",
+      "basis. Allow more candidates or require less.",
       record.candidates, percent(item.reached), item.name,
       to_string(record.measure), percent(record.threshold),
       percent(item.eigenmode_error), percent(item.basis_error));
@@ -45,8 +45,9 @@ std::vector<std::string> describe_shortfalls(const SelectionRecord& record) {
   for (std::size_t i = 0; i < std::min(kMost, missed.size()); ++i)
     texts.push_back(describe(*missed[i], record));
   if (missed.size() > kMost)
-    texts.push_back(fmt::format("automatic modes: nor {} further load cases",
-                                missed.size() - kMost));
+    texts.push_back(
+        fmt::format("automatic modes: the same holds for {} further load cases",
+                    missed.size() - kMost));
   return texts;
 }
 

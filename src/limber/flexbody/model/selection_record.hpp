@@ -12,7 +12,7 @@ namespace limber::flexbody {
 struct SelectedCase {
   std::string name;
   std::vector<int> modes;  ///< indices of those this case needs, ascending
-  double reached = 1.0;    ///< share of all selected eigenmodes [-]
+  double reached = 1.0;    ///< fraction of all selected eigenmodes [-]
   /// Relative error of the static response in the norm of elastic energy, with
   /// the selected eigenmodes alone and with the whole basis.
   double eigenmode_error = 0.0;  ///< [-]
@@ -37,7 +37,7 @@ struct SelectionRecord {
 [[nodiscard]] std::vector<std::string> describe_shortfalls(
     const SelectionRecord& record);
 
-/// The lowest share and the largest errors of any case, in one line.
+/// The lowest fraction and the largest errors of any case, in one line.
 [[nodiscard]] std::string summarize(const SelectionRecord& record);
 
 }  // namespace limber::flexbody

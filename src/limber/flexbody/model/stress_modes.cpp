@@ -31,7 +31,7 @@ double calc_max_principal(const Vector6& stress) {
   return dense::find_eigenvalues(to_tensor(stress))[2];
 }
 
-Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL) {
+Vector6 rotate_stress(const Vector6& stress_B, const Matrix3& R_BL) {
   const Matrix3 t = R_BL.transpose() * to_tensor(stress_B) * R_BL;
   Vector6 turned;
   turned << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(0, 2);

@@ -30,7 +30,8 @@ struct StressModes {
   /// [m^-3 s^-2], or none.
   MatrixX Sigma_B;
   /// m x m: integral of (averaged - element's stress) C^-1 (the same), whose
-  /// share of lambda is the square of the averaging's error in the energy norm
+  /// fraction of lambda is the square of the averaging's error in the energy
+  /// norm
   /// [@zienkiewicz1987] [rad^2/s^2]. Of beams and shells none, 0 x 0.
   MatrixX averaging;
   /// 2 x materials: Young's modulus [Pa], Poisson's ratio; of anisotropic ones
@@ -48,7 +49,8 @@ struct StressModes {
 [[nodiscard]] double calc_max_principal(const Vector6& stress);
 
 /// The components in axes of a frame L. @param R_BL axes of L in B
-[[nodiscard]] Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL);
+[[nodiscard]] Vector6 rotate_stress(const Vector6& stress_B,
+                                    const Matrix3& R_BL);
 
 /// Error estimate of a deformation's stress by averaging over elements, in the
 /// energy norm [-]. Zero without deformation.

@@ -7,8 +7,8 @@
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 
-/// Questions about values that are possible, but that hardly anyone means:
-/// mostly of another unit. Each has the value and the unit that is expected.
+/// Questions about values that are possible but unlikely, mostly because of a
+/// wrong unit. Each states the value and the expected unit.
 namespace limber::flexbody {
 
 /// Of E below 1 MPa and of a density below 10 kg/m^3.

@@ -10,7 +10,7 @@ namespace {
 // A balance is closed when its remainder is round-off of its terms [-].
 constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Below this rotation the gradient at the middle is exact to round-off [rad].
-constexpr double kSmallTurn = 1e-5;
+constexpr double kSmallRotation = 1e-5;
 
 // The rotation halfway between those of both ends.
 Matrix3 find_middle_rotation(const Matrix3& R0, const Matrix3& R1) {
@@ -39,7 +39,7 @@ CoordinateStep find_coordinate_step(const AxisCoordinate& coordinate,
   const Vector3& w = motion.mean.w_FM_F;
   const double speed = w.norm();
   if (coordinate.kind == AxisCoordinate::Kind::angle &&
-      h * speed > kSmallTurn) {
+      h * speed > kSmallRotation) {
     step.z1 = evaluate(coordinate, motion.end, near).z;
     step.rate = (step.z1 - step.z0) / h;
     step.gradient.tail<3>() += ((step.rate - value.rate) / (speed * speed)) * w;

@@ -33,15 +33,15 @@ struct CouplerResponse {
 };
 
 /// Stiffness of a joint's constrained directions: that of the stiffest.
-struct HoldStiffness {
+struct ConstraintStiffness {
   double translational = 0.0;  ///< kt [N/m]
   double rotational = 0.0;     ///< kr [N m/rad]
 };
 
 /// Deflection in the constrained directions.
-struct HoldGive {
+struct ConstraintDeflection {
   double distance = 0.0;  ///< [m]
-  double turn = 0.0;      ///< [rad]
+  double rotation = 0.0;  ///< [rad]
 };
 
 }  // namespace limber::joints

@@ -71,7 +71,7 @@ struct PairPoint {
   Vector3 velocity_W = Vector3::Zero();
 };
 
-/// What a law found of one of the parts by which two bodies touch.
+/// Evaluation of one of the parts by which two bodies are in contact.
 struct PairPart {
   std::size_t index = 0;         ///< of the part, by the law
   double elastic_energy = 0.0;   ///< [J]
@@ -80,8 +80,9 @@ struct PairPart {
   PairBody B;                    ///< likewise
 };
 
-/// What a law answers: any number of points up to the law's, which may differ
-/// from one evaluation to the next. Takes all its memory when it is made.
+/// Contact points of one evaluation, up to the law's largest number, which may
+/// differ from one evaluation to the next. Takes all its memory when it is
+/// made.
 class PairResponse {
  public:
   PairResponse() = default;
@@ -169,8 +170,8 @@ struct PairStep {
 
 class Touching;
 
-/// Forces between two bodies, or a body and the world, at points that come and
-/// go. Immutable; one virtual call a pair and evaluation.
+/// Forces between two bodies, or a body and the world, at points that appear
+/// and disappear. Immutable; one virtual call a pair and evaluation.
 ///
 /// Equation   d energy / dt + dissipation = -sum_i force_i . (v_B - v_A)_i
 /// Limits     at level `full` eta are displacements of the nodes [m].
@@ -206,11 +207,11 @@ class PairInteraction {
                         PairResponse& out) const = 0;
 
   /// The mean force over a step of the energy-conserving scheme, and the mean
-  /// dissipation; `energy` is not looked at. Points act on the means of their
+  /// dissipation; `energy` is not read. Points act on the means of their
   /// positions at both ends.
   ///
-  /// Equation   unless a law knows better, the force at the middle: of second
-  ///            order. To keep the energy balance a law answers with
+  /// Equation   unless a law overrides it, the force at the middle: of second
+  ///            order. To conserve the energy balance a law returns
   ///            sum_i force_i . (d_1 - d_0)_i = energy_0 - energy_1
   ///            - h dissipation, d = p_B - p_A
   virtual void evaluate_over_step(const PairStep& step,
@@ -223,7 +224,7 @@ class PairInteraction {
                       std::span<double> /*memory*/,
                       PairResponse& /*scratch*/) const {}
 
-  /// What it offers if its bodies touch and part; null: no such thing.
+  /// Its interface for the beginning and end of contact; null: none.
   [[nodiscard]] virtual const Touching* touching() const { return nullptr; }
 };
 

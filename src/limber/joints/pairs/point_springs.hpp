@@ -12,7 +12,7 @@ namespace limber::joints {
 /// lines of a net or the blocks of a mount, in place of a coupler each.
 ///
 /// Equation   each as PointSpring; over a step as it, so that energies balance
-/// Limits     a line that only pulls is slack or taut as the motion has it,
+/// Limits     a line that only pulls is slack or taut depending on its length,
 ///            without an event where it changes.
 class PointSprings final : public PairInteraction {
  public:

@@ -53,8 +53,9 @@ struct TouchReading {
   Matrix3 spread_W = Matrix3::Zero();
 };
 
-/// What a pair interaction offers if its bodies touch and part: the times at
-/// which they do are located, steps are adapted and impacts are recorded.
+/// Interface of a pair interaction for the beginning and end of contact: the
+/// times at which they do are located, steps are adapted and impacts are
+/// recorded.
 class Touching {
  public:
   Touching() = default;

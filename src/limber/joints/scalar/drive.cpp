@@ -96,9 +96,9 @@ ScalarResponse Drive::push(const ScalarMotion& motion, double effort) const {
   const double speed = std::copysign(1.0, force) * motion.rate;
   if (speed > p.max_speed) {
     const double band = (kOverspeed - 1.0) * p.max_speed;
-    const double share = 1.0 - (speed - p.max_speed) / band;
-    response.force = force * std::max(0.0, share);
-    response.damping = share > 0.0 ? std::abs(force) / band : 0.0;
+    const double fraction = 1.0 - (speed - p.max_speed) / band;
+    response.force = force * std::max(0.0, fraction);
+    response.damping = fraction > 0.0 ? std::abs(force) / band : 0.0;
   }
   response.supplied = response.force * motion.rate;
   return response;

@@ -33,7 +33,7 @@ enum class DriveMode {
 ///            are neglected.
 class Drive : public WithoutScalarSwitches, public WithoutBounds {
  public:
-  /// No limit [unit of what is limited].
+  /// No limit [unit of the limited quantity].
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   struct Parameters {
     DriveMode mode = DriveMode::position;

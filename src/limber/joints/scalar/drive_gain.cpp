@@ -7,7 +7,7 @@
 namespace limber::joints {
 namespace {
 
-// The share of its command that an effort drive exerts beyond its speed.
+// The fraction of its command that an effort drive exerts beyond its speed.
 DriveGain find_effort_gain(const Drive::Parameters& p,
                            const ScalarMotion& motion, double command) {
   const double low = p.pulls_only ? 0.0 : -p.max_effort;
@@ -15,9 +15,9 @@ DriveGain find_effort_gain(const Drive::Parameters& p,
   const double sign = p.pulls_only ? -1.0 : 1.0;
   const double speed = std::copysign(1.0, sign * command) * motion.rate;
   const double band = (Drive::kOverspeed - 1.0) * p.max_speed;
-  const double share =
+  const double fraction =
       speed > p.max_speed ? 1.0 - (speed - p.max_speed) / band : 1.0;
-  return {sign * std::max(0.0, share), 0.0};
+  return {sign * std::max(0.0, fraction), 0.0};
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ ScalarResponse Friction::evaluate(const ScalarMotion& motion,
   const double v = motion.rate;
   const double speed = std::hypot(v, p.speed);
   const double force = -p.coulomb * v / speed - p.viscous * v;
-  const double share = p.speed / speed;
+  const double fraction = p.speed / speed;
   return {.force = force,
           .dissipation = -force * v,
-          .damping = p.coulomb * share * share / speed + p.viscous};
+          .damping = p.coulomb * fraction * fraction / speed + p.viscous};
 }
 
 ScalarResponse Friction::evaluate_over_step(const CoordinateStep& coordinate,

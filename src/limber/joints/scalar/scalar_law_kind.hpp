@@ -13,9 +13,9 @@
 #include "limber/joints/coordinates/scalar_motion.hpp"
 #include "limber/joints/coordinates/switches.hpp"
 
-/// What a law along one coordinate provides. What does not apply to a law it
-/// inherits from one of the bases below; a law that lacks a function does not
-/// compile.
+/// Functions that a law along one coordinate provides. Those that do not apply
+/// to a law it inherits from one of the bases below; a law that lacks a
+/// function does not compile.
 namespace limber::joints {
 
 /// Excess of a coordinate over one of a law's bounds.

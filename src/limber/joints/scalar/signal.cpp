@@ -60,8 +60,9 @@ SignalValue evaluate_base(const RampSignal& ramp, const EvaluationTime& now,
   if (!is_past(now, ramp.start, delay)) return {ramp.from, 0.0};
   if (is_past(now, ramp.start + ramp.duration, delay)) return {ramp.to, 0.0};
   const double height = ramp.to - ramp.from;
-  const double share = (now.t - delay - ramp.start) / ramp.duration;
-  const SignalValue progress = find_progress(ramp, std::clamp(share, 0.0, 1.0));
+  const double fraction = (now.t - delay - ramp.start) / ramp.duration;
+  const SignalValue progress =
+      find_progress(ramp, std::clamp(fraction, 0.0, 1.0));
   return {ramp.from + height * progress.value,
           height * progress.rate / ramp.duration};
 }
@@ -139,10 +140,10 @@ double integrate_base(const TableSignal& table, double t) {
   double sum = 0.0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double span = times[i] - times[i - 1];
-    const double share = std::min((t - times[i - 1]) / span, 1.0);
+    const double fraction = std::min((t - times[i - 1]) / span, 1.0);
     const double rise = values[i] - values[i - 1];
-    sum += span * share * (values[i - 1] + 0.5 * share * rise);
-    if (share < 1.0) return sum;
+    sum += span * fraction * (values[i - 1] + 0.5 * fraction * rise);
+    if (fraction < 1.0) return sum;
   }
   return sum + values.back() * (t - times.back());
 }
@@ -273,8 +274,8 @@ SignalValue evaluate(const Signal& signal, const EvaluationTime& now) {
           return evaluate_base(base, now, impulse.delay);
         },
         signal.base);
-    sum.value += impulse.share * part.value;
-    sum.rate += impulse.share * part.rate;
+    sum.value += impulse.fraction * part.value;
+    sum.rate += impulse.fraction * part.rate;
   }
   return sum;
 }
@@ -287,7 +288,7 @@ std::optional<double> integrate(const Signal& signal, double t) {
         [&](const auto& base) {
           if constexpr (!std::is_same_v<std::decay_t<decltype(base)>,
                                         InputSignal>) {
-            sum += impulse.share * integrate_base(base, t - impulse.delay);
+            sum += impulse.fraction * integrate_base(base, t - impulse.delay);
           }
         },
         signal.base);
@@ -320,12 +321,12 @@ std::vector<int> find_inputs(const Signal& signal) {
 }
 
 SignalValue find_largest(const Signal& signal) {
-  double shares = 0.0;
+  double fractions = 0.0;
   for (const Impulse& impulse : signal.shaper) {
-    shares += std::abs(impulse.share);
+    fractions += std::abs(impulse.fraction);
   }
   const SignalValue base = base_largest(signal);
-  return {shares * base.value, shares * base.rate};
+  return {fractions * base.value, fractions * base.rate};
 }
 
 void check(const Signal& signal) {
@@ -333,20 +334,20 @@ void check(const Signal& signal) {
   constexpr double kRoundoff = 1e-12;
   double sum = 0.0;
   for (const Impulse& impulse : signal.shaper) {
-    require_finite({impulse.share, impulse.delay});
+    require_finite({impulse.fraction, impulse.delay});
     require_of_signal(impulse.delay >= 0.0,
                       fmt::format("a shaper's delay is {:g} s; expected >= 0",
                                   impulse.delay));
-    sum += impulse.share;
+    sum += impulse.fraction;
   }
   require_of_signal(
       std::abs(sum - 1.0) < kRoundoff,
-      fmt::format("a shaper's shares sum to {:g}; expected 1", sum));
+      fmt::format("a shaper's fractions sum to {:g}; expected 1", sum));
   require_of_signal(
       find_inputs(signal).empty() ||
           (signal.shaper.size() == 1 && signal.shaper[0].delay == 0.0),
-      "it follows an input and has a shaper, which would need what the "
-      "input was before; shape it in the controller that writes the input");
+      "it follows an input and has a shaper, which would need past values of "
+      "the input; shape it in the controller that writes the input");
 }
 
 std::vector<Impulse> make_shaper(ShaperKind kind, double frequency,

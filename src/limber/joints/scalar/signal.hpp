@@ -53,13 +53,13 @@ struct SineSignal {
 /// linear between its samples. Without a state it has no value.
 struct InputSignal {
   int input = 0;        ///< index of the system's input
-  double factor = 1.0;  ///< [unit of what is driven / unit of the input]
+  double factor = 1.0;  ///< [unit of the driven quantity / unit of the input]
 };
 
 /// One impulse of an input shaper: a fraction of the command, delayed.
 struct Impulse {
-  double share = 1.0;  ///< fraction; those of a shaper sum to 1 [-]
-  double delay = 0.0;  ///< >= 0 [s]
+  double fraction = 1.0;  ///< fraction; those of a shaper sum to 1 [-]
+  double delay = 0.0;     ///< >= 0 [s]
 };
 
 /// A command, shaped.
@@ -96,13 +96,13 @@ struct SignalValue {
 [[nodiscard]] std::vector<int> find_inputs(const Signal& signal);
 
 /// Bounds on the magnitudes of value and rate over all time: the maxima without
-/// a shaper; with one, those of the base times the sum of |share|. Infinite for
-/// an input, which is not known in advance.
+/// a shaper; with one, those of the base times the sum of |fraction|. Infinite
+/// for an input, which is not known in advance.
 [[nodiscard]] SignalValue find_largest(const Signal& signal);
 
 /// @throws InputError for a value that is not finite, a duration or frequency
 /// <= 0, a rise outside (0, 1/2], a table that is empty or whose times do not
-/// increase, shares that do not sum to one, a negative delay, a shaper of an
+/// increase, fractions that do not sum to one, a negative delay, a shaper of an
 /// input.
 void check(const Signal& signal);
 
@@ -115,7 +115,7 @@ enum class ShaperKind {
 /// Impulses of a shaper that leaves no residual vibration of a mode.
 ///
 /// Equation   K = exp(-zeta pi / sqrt(1 - zeta^2)), spaced by half of the
-///            damped period; shares (1, K) / (1 + K) or
+///            damped period; fractions (1, K) / (1 + K) or
 ///            (1, 2 K, K^2) / (1 + K)^2
 /// Source     [@singer1990]
 /// @param frequency undamped natural frequency > 0 [Hz]

@@ -31,8 +31,8 @@ void refuse_options(const MatrixSystem& system, const Recipe& recipe) {
          "a material is given, and its beams and shells have their own. Give "
          "none");
   refuse(recipe.stress && system.is_structure && !system.recover_sections,
-         "stress of solids beside beams and shells is not computed. Leave it "
-         "out, or reduce the solids by themselves");
+         "stress of solids in a model with beams and shells is not computed. "
+         "Leave it out, or reduce the solids by themselves");
   refuse(recipe.stress && !system.is_structure,
          "stress needs elements; matrices have none. Recover it in the program "
          "that wrote them, from the displacements");
@@ -64,8 +64,9 @@ std::vector<int> find_clamped_rows(const MatrixSystem& system,
       led.erase(system.rows[static_cast<std::size_t>(row)].node);
     if (!led.empty())
       throw InputError(fmt::format(
-          "{}: the clamped {} would be held, but rigid elements or means lead "
-          "it. Expected the nodes that lead, which hold those that they lead.",
+          "{}: the clamped {} is a dependent node of rigid elements or means. "
+          "Expected the independent nodes, whose clamping also holds the "
+          "dependent ones.",
           system.source, system.name_nodes({led.begin(), led.end()})));
   }
   if (!nodes.empty() && rows.empty())
@@ -88,9 +89,9 @@ void check_clamps(const MatrixPart& part, const std::vector<int>& clamped) {
   const auto left = (values.array() < kFree * values[5]).count();
   if (left == 0) return;
   throw InputError(fmt::format(
-      "{}: what is clamped leaves {} of six rigid motions. Clamp more, such as "
-      "a node with rotations or three nodes that are not on a line; or clamp "
-      "nothing and hold the body by couplers",
+      "{}: the clamped nodes leave {} of six rigid motions free. Clamp more, "
+      "such as a node with rotations or three nodes that are not on a line; or "
+      "clamp nothing and hold the body by couplers",
       part.system.source, left));
 }
 

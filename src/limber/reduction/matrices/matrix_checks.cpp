@@ -118,8 +118,8 @@ void check_minors(const MatrixSystem& system, const std::string& file,
     }
   if (row < 0) return;
   throw InputError(fmt::format(
-      "{}: the {} between {} and {} is {:.4g} of the most that their diagonal "
-      "entries allow, so it is not positive semidefinite{}",
+      "{}: the {} between {} and {} is {:.4g} of the largest value that their "
+      "diagonal entries allow, so it is not positive semidefinite{}",
       file, what, system.name_row(row), system.name_row(column), worst,
       worst > kDoubled && worst < 2.5
           ? "; were both triangles added where the file has both, so that "

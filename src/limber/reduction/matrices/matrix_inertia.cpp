@@ -170,8 +170,9 @@ void integrate_moments(const MatrixPart& part, const MatrixX& Phi,
     // e_z x x = (-y, x, 0), and so on: row of x_a in a rotation's moment.
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3;
-      const VectorX turn = part.X.col(3 + (a + 2) % 3);
-      integrals.S1[k].row(a) = calc_moment(part.system, turn, mode(k)).row(b);
+      const VectorX rotation = part.X.col(3 + (a + 2) % 3);
+      integrals.S1[k].row(a) =
+          calc_moment(part.system, rotation, mode(k)).row(b);
     }
     for (std::size_t l = 0; l < m; ++l)
       integrals.S2[k * m + l] = calc_moment(part.system, mode(k), mode(l));
@@ -188,13 +189,13 @@ std::string describe_motion(const BlockDefects& defects) {
         defects.motion);
   if (defects.shape == defects.largest())
     return fmt::format(
-        "the nodes' blocks of the mass matrix differ by direction, which "
-        "makes {:.2g} of a mode's kinetic energy, as where inner nodes were "
+        "the nodes' blocks of the mass matrix differ by direction, which makes "
+        "{:.2g} of a mode's kinetic energy, as if inner nodes had been "
         "condensed (Guyan)",
         defects.shape);
   return fmt::format(
       "moments of inertia by the nodes' blocks of the mass matrix differ by "
-      "{:.2g} from those of rigid rotation, as where inner nodes were "
+      "{:.2g} from those of rigid rotation, as if inner nodes had been "
       "condensed (Guyan), elements are too few, or a mass on an averaging "
       "connection (RBE3) was condensed into many nodes",
       defects.inertia);
@@ -203,7 +204,7 @@ std::string describe_motion(const BlockDefects& defects) {
 std::string describe_gap(const MatrixPart& part, const BlockDefects& defects,
                          double residual) {
   const std::string start = fmt::format(
-      "{}: {}, so that the matrices do not say where the mass moves",
+      "{}: {}, so that the matrices do not determine how the mass moves",
       part.system.source, describe_motion(defects));
   if (!part.system.has_recovery)
     return start +

@@ -30,12 +30,12 @@ struct MatrixInertia {
 /// A superelement, whose interior moves in rows without a node or was
 /// condensed, is none: with recovery rows its mass is fitted to points that
 /// move as these say, and without them J0 and P alone are known, and record.gap
-/// says why.
+/// states why.
 ///
 /// Equation   sum_p m_p [X_p Phi_p]^T [X_p Phi_p] = [X Phi]^T M [X Phi], m_p >=
 ///            0, in the least square; S1_k = sum m_p x_p u_pk^T, S2_kl = sum
 ///            m_p u_pk u_pl^T. J0, P and X_r^T M Phi are those of M
-/// Limits     fits with a residual below 0.02 are taken; of a body that turns
+/// Limits     fits with a residual below 0.02 are taken; of a body that rotates
 ///            nowhere (clamped) S1 and S2 do not matter
 /// @param Phi rows x m, zero on rows that are held @param fields 6N x m
 [[nodiscard]] MatrixInertia find_matrix_inertia(const MatrixPart& part,

@@ -38,8 +38,8 @@ std::vector<int> find_by_number(const MatrixSystem& system,
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data() + kPrefix.size(), end, tag);
   if (read.ec != std::errc() || read.ptr != end)
-    throw InputError(
-        fmt::format("'{}' is no node; expected 'node:' and its number", text));
+    throw InputError(fmt::format(
+        "'{}' is not a node; expected 'node:' and its number", text));
   return find_tagged(system, tag);
 }
 

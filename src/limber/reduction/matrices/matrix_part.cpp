@@ -73,18 +73,19 @@ std::vector<int> find_holding_nodes(const MatrixSystem& system,
       force[it.row()] += it.value() * x[j];
       scale[it.row()] += std::abs(it.value() * x[j]);
     }
-  VectorX share = VectorX::Zero(static_cast<Eigen::Index>(system.tags.size()));
+  VectorX fraction =
+      VectorX::Zero(static_cast<Eigen::Index>(system.tags.size()));
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const int node = system.rows[static_cast<std::size_t>(i)].node;
     if (node >= 0 && scale[i] > 0.0)
-      share[node] = std::max(share[node], std::abs(force[i]) / scale[i]);
+      fraction[node] = std::max(fraction[node], std::abs(force[i]) / scale[i]);
   }
   std::vector<int> nodes;
-  for (int n = 0; n < share.size(); ++n)
-    if (share[n] > 0.0 && share[n] >= kLeast * share.maxCoeff())
+  for (int n = 0; n < fraction.size(); ++n)
+    if (fraction[n] > 0.0 && fraction[n] >= kLeast * fraction.maxCoeff())
       nodes.push_back(n);
   std::sort(nodes.begin(), nodes.end(),
-            [&](int a, int b) { return share[a] > share[b]; });
+            [&](int a, int b) { return fraction[a] > fraction[b]; });
   return nodes;
 }
 
@@ -119,7 +120,7 @@ void check_rigid_stiffness(const MatrixX& X, double lambda,
   }
   if (worst < kSilent) return;
   const std::string text = fmt::format(
-      "{}: {} of the whole body meets {:.2g} times the stiffness of the first "
+      "{}: {} of the whole body has {:.2g} times the stiffness of the first "
       "mode, where a free body has none",
       system.source, kMotions[motion], worst);
   if (worst < kAllowed) {

@@ -207,10 +207,10 @@ MatrixSystem make_matrix_system(fem::MatrixModel model, double unit) {
   system.triangles = std::move(model.triangles);
   system.drawn = model.drawn;
   system.is_structure = model.is_structure;
-  system.skin = std::move(model.skin);
-  system.skin.mesh.source = system.source;
-  system.skin.mesh.tags = system.tags;
-  system.skin.mesh.x = system.x;
+  system.mesh_surface = std::move(model.mesh_surface);
+  system.mesh_surface.mesh.source = system.source;
+  system.mesh_surface.mesh.tags = system.tags;
+  system.mesh_surface.mesh.x = system.x;
   system.notices = std::move(model.notices);
   system.digits = model.stiffness.digits;
   system.M = std::move(model.mass.entries);

@@ -45,9 +45,9 @@ struct MatrixSystem {
   std::vector<fem::MatrixNodeSet> sets;
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> triangles;
-  std::size_t drawn = 0;      ///< of the nodes, for pictures only (MatrixModel)
-  fem::ModelSkin skin;        ///< of structures
-  bool is_structure = false;  ///< of a deck's elements (MatrixModel)
+  std::size_t drawn = 0;  ///< of the nodes, for pictures only (MatrixModel)
+  fem::ModelSurface mesh_surface;  ///< of structures
+  bool is_structure = false;       ///< of a deck's elements (MatrixModel)
   /// Of beams and shells [Pa, N, N m]; empty: not known.
   fem::RecoverSections recover_sections;
   std::vector<std::string> found;    ///< a line for each file

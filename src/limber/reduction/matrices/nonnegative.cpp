@@ -41,7 +41,7 @@ class PassiveColumns {
     return true;
   }
 
-  /// Only those that `keeps` says.
+  /// Only those that `keeps` selects.
   template <typename Keeps>
   void reduce(const Keeps& keeps) {
     std::vector<Eigen::Index> kept;
@@ -78,20 +78,20 @@ class PassiveColumns {
 void step_inside(PassiveColumns& passive, VectorX& x) {
   for (;;) {
     const VectorX solution = passive.solve();
-    double share = 1.0;
+    double fraction = 1.0;
     Eigen::Index first = -1;
     for (Eigen::Index i = 0; i < solution.size(); ++i) {
       const Eigen::Index column =
           passive.columns()[static_cast<std::size_t>(i)];
       if (solution[i] > 0.0) continue;
       const double limit = x[column] / (x[column] - solution[i]);
-      if (!(limit <= share)) continue;
-      share = limit;
+      if (!(limit <= fraction)) continue;
+      fraction = limit;
       first = column;
     }
     for (Eigen::Index i = 0; i < solution.size(); ++i) {
       double& value = x[passive.columns()[static_cast<std::size_t>(i)]];
-      value += share * (solution[i] - value);
+      value += fraction * (solution[i] - value);
     }
     if (first < 0) return;
     x[first] = 0.0;

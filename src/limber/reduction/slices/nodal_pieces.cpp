@@ -48,11 +48,11 @@ std::vector<Bounds> list_bounds(const ContactSurface& contact) {
 NodalPiece make_piece(const SliceMotion& slice, const fem::Mesh& mesh) {
   const auto count = std::ssize(slice.nodes());
   NodalPiece piece{{}, Matrix3X(3, count), MatrixX(6, 3 * count)};
-  for (const auto& [node, share] : slice.nodes()) {
+  for (const auto& [node, fraction] : slice.nodes()) {
     const auto i = std::ssize(piece.nodes);
     piece.nodes.push_back(node);
     piece.x_P.col(i) = Vector3(mesh.x.col(node)) - slice.centre();
-    piece.motion.middleCols<3>(3 * i) = share;
+    piece.motion.middleCols<3>(3 * i) = fraction;
   }
   return piece;
 }

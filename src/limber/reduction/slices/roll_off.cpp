@@ -14,10 +14,10 @@ struct Band {
 };
 
 Band find_band(const VectorX& flexibility, const VectorX& lambda) {
-  constexpr double kLeastShare = 1e-4;
+  constexpr double kLeastFraction = 1e-4;
   Band band;
   for (Eigen::Index k = 0; k < lambda.size(); ++k) {
-    if (flexibility[k] <= kLeastShare * flexibility.sum()) continue;
+    if (flexibility[k] <= kLeastFraction * flexibility.sum()) continue;
     ++band.count;
     band.highest = std::max(band.highest, std::sqrt(lambda[k]));
   }

@@ -6,8 +6,8 @@
 /// The part of each mode that contacts have. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Squares of the shares s_k of modes that a contact along one direction has,
-/// so that a sum that ends with the basis does not overshoot.
+/// Squares of the fractions s_k of modes that a contact along one direction
+/// has, so that a sum that ends with the basis does not overshoot.
 ///
 /// Equation   s_k^2 = 1 - u^4, u = omega_k (N + 1/2) / (N omega_N), at most 1;
 ///            N modes have more than 1e-4 of the flexibility, omega_N is the

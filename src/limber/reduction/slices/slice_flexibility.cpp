@@ -18,7 +18,7 @@ using Samples = std::vector<const SurfaceSample*>;
 
 constexpr int kStations = 8;
 
-std::array<Samples, kStations> divide_along_longest(const SkinSlice& slice,
+std::array<Samples, kStations> divide_along_longest(const SurfaceSlice& slice,
                                                     const Matrix3& axes) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
   Vector3 high = -low;
@@ -48,7 +48,7 @@ Vector3 find_faces(const Samples& samples, const Matrix3& axes) {
 
 }  // namespace
 
-Matrix3 find_excess(const SkinSlice& slice, const Matrix3& residual,
+Matrix3 find_excess(const SurfaceSlice& slice, const Matrix3& residual,
                     const Matrix3& axes, const fem::ElasticMaterial& material) {
   const double nu = material.poisson_ratio;
   Vector3 excess = Vector3::Zero();
@@ -67,9 +67,10 @@ Matrix3 find_excess(const SkinSlice& slice, const Matrix3& residual,
   return axes * excess.asDiagonal() * axes.transpose();
 }
 
-Matrix3 find_own_flexibility(const SkinSlice& slice, const SliceMotion& whole,
-                             const MatrixX& motion, const Matrix3& axes,
-                             const VectorX& lambda, const MatrixX& Phi) {
+Matrix3 find_own_flexibility(const SurfaceSlice& slice,
+                             const SliceMotion& whole, const MatrixX& motion,
+                             const Matrix3& axes, const VectorX& lambda,
+                             const MatrixX& Phi) {
   const Vector3 faces = find_faces(slice.samples, axes);
   Matrix3 flexibility = Matrix3::Zero();
   for (const Samples& samples : divide_along_longest(slice, axes)) {
@@ -79,9 +80,9 @@ Matrix3 find_own_flexibility(const SkinSlice& slice, const SliceMotion& whole,
     const MatrixX own = (station.find_motion(Phi).topRows<3>() -
                          motion.topRows<3>() + skew(r) * motion.bottomRows<3>())
                             .leftCols(lambda.size());
-    const Vector3 share = find_faces(samples, axes).cwiseQuotient(faces);
+    const Vector3 fraction = find_faces(samples, axes).cwiseQuotient(faces);
     const MatrixX pressed =
-        share.cwiseSqrt().asDiagonal() * axes.transpose() * own;
+        fraction.cwiseSqrt().asDiagonal() * axes.transpose() * own;
     flexibility +=
         pressed * lambda.cwiseInverse().asDiagonal() * pressed.transpose();
   }

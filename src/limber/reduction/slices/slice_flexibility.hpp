@@ -2,10 +2,10 @@
 #pragma once
 
 #include "limber/fem/solid/material.hpp"
-#include "limber/reduction/slices/skin_division.hpp"
 #include "limber/reduction/slices/slice_motion.hpp"
+#include "limber/reduction/slices/surface_division.hpp"
 
-/// What a slice gives way beyond its motion as one piece. Part of
+/// Local flexibility of a slice beyond its motion as one piece. Part of
 /// limber_reduction.
 namespace limber::flexbody {
 
@@ -13,7 +13,7 @@ namespace limber::flexbody {
 /// (2 E' a) of the slice's own half space along each axis; pi a^2 is the area
 /// of the faces on the larger side, E' = E / (1 - nu^2).
 /// @param residual of the slice's loads, 3 x 3 [m/N] @param axes of the boxes
-[[nodiscard]] Matrix3 find_excess(const SkinSlice& slice,
+[[nodiscard]] Matrix3 find_excess(const SurfaceSlice& slice,
                                   const Matrix3& residual, const Matrix3& axes,
                                   const fem::ElasticMaterial& material);
 
@@ -29,7 +29,7 @@ namespace limber::flexbody {
 /// @param Phi 3N x m rows of all nodes, its first columns those of lambda
 /// @returns 3 x 3, positive semidefinite [m/N]
 [[nodiscard]] Matrix3 find_own_flexibility(
-    const SkinSlice& slice, const SliceMotion& whole, const MatrixX& motion,
+    const SurfaceSlice& slice, const SliceMotion& whole, const MatrixX& motion,
     const Matrix3& axes, const VectorX& lambda, const MatrixX& Phi);
 
 }  // namespace limber::flexbody

@@ -5,14 +5,14 @@
 
 #include "limber/fem/mesh/surface.hpp"
 
-/// Points that stand for a surface's area. Part of limber_reduction.
+/// Sample points that represent a surface's area. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Share of a surface's modal flexibility along its normals that the own
+/// Fraction of a surface's modal flexibility along its normals that the own
 /// deformation of its parts may have [-].
 inline constexpr double kMostDeformation = 1e-4;
 
-/// A point of the surface that stands for the area around it.
+/// A point of the surface that represents the area around it.
 struct SurfaceSample {
   const fem::SurfaceFace* face = nullptr;
   VectorX shape;  ///< values of the functions of the face's nodes [-]

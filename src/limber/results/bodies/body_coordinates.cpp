@@ -42,7 +42,7 @@ std::array<MatrixX, 6> find_moments(const ReducedBody& body) {
   const auto S1 = [&](Eigen::Index k) {
     return body.integrals.S1[static_cast<std::size_t>(k)];
   };
-  const auto turn = [](int a) {
+  const auto rotation = [](int a) {
     Vector3 axis = Vector3::Zero();
     axis[a] = 1.0;
     return skew(axis);
@@ -56,12 +56,12 @@ std::array<MatrixX, 6> find_moments(const ReducedBody& body) {
     } else if (i >= 6 && j >= 6) {
       S = body.integrals.S2[static_cast<std::size_t>((i - 6) * m + j - 6)];
     } else if (i >= 3 && i < 6 && j >= 3 && j < 6) {
-      S = turn(static_cast<int>(i - 3)) * body.integrals.S0 *
-          turn(static_cast<int>(j - 3)).transpose();
+      S = rotation(static_cast<int>(i - 3)) * body.integrals.S0 *
+          rotation(static_cast<int>(j - 3)).transpose();
     } else if (i >= 3 && i < 6 && j >= 6) {
-      S = turn(static_cast<int>(i - 3)) * S1(j - 6);
+      S = rotation(static_cast<int>(i - 3)) * S1(j - 6);
     } else if (j >= 3 && j < 6 && i >= 6) {
-      S = (turn(static_cast<int>(j - 3)) * S1(i - 6)).transpose();
+      S = (rotation(static_cast<int>(j - 3)) * S1(i - 6)).transpose();
     }
     return S;
   };
@@ -158,7 +158,7 @@ void require_free(const ReducedBody& body) {
   if (!body.clamped) return;
   throw InputError(fmt::format(
       "body '{}' is clamped: its matrices have no rigid motion, which other "
-      "programs need. Reduce it without a clamp, and hold it there",
+      "programs need. Reduce it without a clamp, and constrain it there",
       body.name));
 }
 

@@ -77,10 +77,10 @@ std::string make_simscape_file(const flexbody::ReducedBody& body,
   require_free(body);
   const std::vector<BodyNode> frames = list_frames(body);
   if (frames.empty())
-    throw InputError(fmt::format(
-        "body '{}' has no interface; expected one or more, where Simscape "
-        "holds it",
-        body.name));
+    throw InputError(
+        fmt::format("body '{}' has no interface; expected one or more, where "
+                    "Simscape attaches it",
+                    body.name));
   const Eigen::Index n = 6 + body.lambda.size();
   if (6 * std::ssize(frames) > n)
     throw InputError(fmt::format(

@@ -35,7 +35,7 @@ std::string make_nodes(const flexbody::ReducedBody& body, bool is_of_test) {
 }
 
 /// Real modes, three values a node. The largest is 1, as values have six
-/// digits; the modal mass says their size.
+/// digits; the modal mass states their scale.
 std::string make_mode(const flexbody::ReducedBody& body, Eigen::Index k,
                       double ratio) {
   const VectorX phi = body.rows.Phi_B.col(k);

@@ -251,14 +251,14 @@ std::string draw_distributions(
     set_axis(script, "x", {curve.response, curve.values}, true);
     script.add("set yrange [0:1]");
     script.add("set ytics 0.25");
-    script.add("set ylabel 'share of samples below [-]'");
+    script.add("set ylabel 'fraction of samples below [-]'");
     script.add(fmt::format("$c{} << EOD", r));
     const auto n = static_cast<double>(curve.values.size());
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
-      const double share = static_cast<double>(i + 1) / n;
+      const double fraction = static_cast<double>(i + 1) / n;
       script.add(fmt::format("{:.9g} {:.6g} {:.6g} {:.6g}", curve.values[i],
-                             share, std::max(share - curve.band, 0.0),
-                             std::min(share + curve.band, 1.0)));
+                             fraction, std::max(fraction - curve.band, 0.0),
+                             std::min(fraction + curve.band, 1.0)));
     }
     script.add("EOD");
     script.add("unset object");

@@ -42,8 +42,8 @@ struct DistributionCurve {
   double mean_error = 0.0;     ///< half the width of its interval [its unit]
   double band = 0.0;           ///< the same of the distribution function [-]
 };
-/// The share of samples below each value with its band, and the mean with its
-/// interval; a panel each.
+/// The fraction of samples below each value with its band, and the mean with
+/// its interval; a panel each.
 [[nodiscard]] std::string draw_distributions(
     const std::filesystem::path& file, const std::string& title,
     const std::vector<DistributionCurve>& responses);

@@ -63,7 +63,7 @@ struct Range {
     least /= below;
     most *= above;
   }
-  [[nodiscard]] double find_share(double value) const {
+  [[nodiscard]] double find_fraction(double value) const {
     return std::log(value / least) / std::log(most / least);
   }
   /// Of `set xrange` and `set xtics`, for axis 'x' or 'y'.
@@ -120,13 +120,14 @@ void add_labels(GnuplotScript& script, const std::vector<TradePoint>& points,
   for (const std::size_t i : order) {
     const bool is_shown =
         points.size() <= kMostLabels || labels.size() < front.size();
-    labels.push_back({kPanelWidth * x.find_share(points[i].cost),
-                      kTradePanelHeight * y.find_share(100.0 * *errors[i]),
+    labels.push_back({kPanelWidth * x.find_fraction(points[i].cost),
+                      kTradePanelHeight * y.find_fraction(100.0 * *errors[i]),
                       is_shown ? points[i].label : ""});
   }
   std::vector<double> lines;
   if (tolerance) {
-    const double height = kTradePanelHeight * y.find_share(100.0 * *tolerance);
+    const double height =
+        kTradePanelHeight * y.find_fraction(100.0 * *tolerance);
     lines = {height, height + 12.0};  // and the line's label
   }
   const auto places =

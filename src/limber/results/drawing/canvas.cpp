@@ -42,9 +42,9 @@ double find_twice_area(const Vector3& a, const Vector3& b, double x, double y) {
 double find_distance(const Spot& p, const Spot& from, const Spot& to) {
   const Spot along = to - from;
   const double square = along.squaredNorm();
-  const double share =
+  const double fraction =
       square > 0.0 ? std::clamp((p - from).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - from - share * along).norm();
+  return (p - from - fraction * along).norm();
 }
 
 }  // namespace
@@ -86,12 +86,12 @@ void Canvas::fill_triangle(const std::array<Vector3, 3>& corners,
     for (int column = x.first; column < x.last; ++column) {
       const double u = column + 0.5;
       const double v = row + 0.5;
-      const double share_a = find_twice_area(b, c, u, v) / area;
-      const double share_b = find_twice_area(c, a, u, v) / area;
-      const double share_c = 1.0 - share_a - share_b;
-      if (share_a < 0.0 || share_b < 0.0 || share_c < 0.0) continue;
-      const auto depth = static_cast<float>(share_a * a.z() + share_b * b.z() +
-                                            share_c * c.z());
+      const double fraction_a = find_twice_area(b, c, u, v) / area;
+      const double fraction_b = find_twice_area(c, a, u, v) / area;
+      const double fraction_c = 1.0 - fraction_a - fraction_b;
+      if (fraction_a < 0.0 || fraction_b < 0.0 || fraction_c < 0.0) continue;
+      const auto depth = static_cast<float>(
+          fraction_a * a.z() + fraction_b * b.z() + fraction_c * c.z());
       Sample& here = sample(column, row);
       if (depth < here.depth) here = {depth, rgb};
     }

@@ -69,9 +69,10 @@ void write_png(const std::filesystem::path& file, const Canvas& canvas) {
     out << make_png(canvas);
     out.flush();
     if (out) return;
-    throw InputError(fmt::format(
-        "'{}' cannot be written; does its folder exist, and is there room?",
-        file.string()));
+    throw InputError(
+        fmt::format("'{}' cannot be written; does its folder exist, and is "
+                    "there free space?",
+                    file.string()));
   });
 }
 

@@ -55,7 +55,7 @@ struct Camera {
   }
 
   // Right, up and away from the eye [m].
-  [[nodiscard]] Vector3 turn(const Vector3& p) const {
+  [[nodiscard]] Vector3 rotate(const Vector3& p) const {
     return {right.dot(p), up.dot(p), -back.dot(p)};
   }
 
@@ -101,7 +101,7 @@ class Artist {
         for (const Vector3& p : find_corners(surface, triangle)) {
           if (!p.allFinite()) continue;
           bounds_.include(p);
-          seen.include(camera_.turn(p));
+          seen.include(camera_.rotate(p));
         }
       }
     };
@@ -124,7 +124,7 @@ class Artist {
 
   // Pixels right and down, and depth [m].
   [[nodiscard]] Vector3 project(const Vector3& p) const {
-    const Vector3 seen = camera_.turn(p) - middle_;
+    const Vector3 seen = camera_.rotate(p) - middle_;
     return {0.5 * kWidth + scale_ * seen.x(),
             kTop + 0.5 * (kHeight - kTop - kBottom) - scale_ * seen.y(),
             seen.z()};
@@ -219,7 +219,7 @@ class Artist {
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return camera_.back[a] < camera_.back[b]; });
     for (const int a : order) {
-      const Vector3 along = camera_.turn(Vector3::Unit(a));
+      const Vector3 along = camera_.rotate(Vector3::Unit(a));
       const Spot arrow(kLength * along.x(), -kLength * along.y());
       const Colour colour = to_colour(kAxes[static_cast<std::size_t>(a)]);
       canvas_.draw_line(origin, origin + arrow, 3.0, colour);

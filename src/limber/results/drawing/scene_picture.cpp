@@ -181,7 +181,8 @@ Matrix3X sample(const Shot& shot) {
 // Where the picture is; empty: near the origin of the world.
 std::string describe_origin(const Home& home) {
   if (home.travels) {
-    return "from the mean of the bodies, which travel, at each moment";
+    return "relative to the mean position of the bodies, which travel, at each "
+           "time";
   }
   const Vector3& o = home.offset;
   if (o.isZero(0.0)) return {};

@@ -24,8 +24,8 @@
 namespace limber::scene {
 namespace {
 
-/// Mass in <inertial> may differ from the mesh's by this share.
-constexpr double kMassShare = 0.01;
+/// Mass in <inertial> may differ from the mesh's by this fraction.
+constexpr double kMassFraction = 0.01;
 
 /// Of bodies that do not deform.
 constexpr flexbody::FrequencyBand kAnyBand{1.0, 2.0};
@@ -65,11 +65,12 @@ void Assembly::add_body(const BodyPlan& plan) {
   for (const BodyPlan& piece : find_bodies(plans_, plan.links.front())) {
     mass += piece.mass;
   }
-  if (link.inertia && std::abs(link.inertia->mass - mass) > kMassShare * mass) {
-    warnings_.push_back(fmt::format(
-        "link '{}': the mesh has {:.4g} kg, <inertial> says {:.4g} kg; the "
-        "mesh's is used",
-        link.name, mass, link.inertia->mass));
+  if (link.inertia &&
+      std::abs(link.inertia->mass - mass) > kMassFraction * mass) {
+    warnings_.push_back(
+        fmt::format("link '{}': the mesh has {:.4g} kg, <inertial> has {:.4g} "
+                    "kg; the mesh's is used",
+                    link.name, mass, link.inertia->mass));
   }
   if (level == dynamics::Fidelity::rigid &&
       find_start(scene_.scenario, link.name) != nullptr) {
@@ -101,9 +102,9 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
   if (damping.rayleigh_mass > 0.0 && !plan.reduced->clamped) {
     throw InputError(fmt::format(
         "link '{}': rayleigh_mass would damp its motion relative to its own "
-        "moving frame, not to what holds it, so that little of it is left in "
-        "the modes of the arm; only a link with a <clamp> takes it. Give a "
-        "ratio or a loss_factor",
+        "moving frame, not relative to its supports, so that it hardly damps "
+        "the modes of the arm; it is allowed only for a link with a <clamp>. "
+        "Give a ratio or a loss_factor",
         link.name));
   }
   if (plan.full) {
@@ -115,11 +116,12 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
             link.name));
       }
       damping.ratios = {0.5 * loss_factor};
-      warnings_.push_back(fmt::format(
-          "link '{}' is at level full: its damping ratio of {:g} acts on the "
-          "modes of the body as its reduction holds it, and those of the arm "
-          "are damped less; at other levels it is that of all modes",
-          link.name, 0.5 * loss_factor));
+      warnings_.push_back(
+          fmt::format("link '{}' is at level full: its damping ratio of {:g} "
+                      "acts on the modes of the body with the boundary "
+                      "conditions of its reduction, and those of the arm are "
+                      "damped less; at other levels it is that of all modes",
+                      link.name, 0.5 * loss_factor));
     }
     return builder_.add_full_body(plan.name, plan.reduced, plan.full, damping);
   }
@@ -198,8 +200,8 @@ void Assembly::check_moment(const LoadSpec& load,
                    joints::rotation_about(R_WL.transpose() * load.moment));
   } else {
     with_context(
-        "its moment is fixed in the world, so it comes about every direction "
-        "of a link that turns",
+        "its moment is fixed in the world, so it acts about every direction of "
+        "a link that rotates",
         [&] { check_rotation(site, Matrix3::Identity()); });
   }
 }
@@ -290,10 +292,11 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec,
   int at = piece.value_or(0);
   if (!piece && pieces.size() > 1) {
     if (place.interface.empty()) {
-      throw InputError(fmt::format(
-          "it is cut into {} pieces, which are a body each; say where, or ask "
-          "for '[output] stress = true', which tells the largest of each",
-          pieces.size()));
+      throw InputError(
+          fmt::format("it is cut into {} pieces, which are separate bodies; "
+                      "select a location, or set '[output] stress = true', "
+                      "which reports the largest of each",
+                      pieces.size()));
     }
     at = find_piece(pieces, spec.where);
   }
@@ -351,9 +354,9 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   if (sites_.plan_of(link).is_world) {
     throw InputError("it is on the world, which is fixed");
   }
-  const bool turns = spec.quantity == Quantity::rotation ||
-                     spec.quantity == Quantity::angular_velocity;
-  PointProbe probe = make_followed_point(spec.where, turns);
+  const bool rotates = spec.quantity == Quantity::rotation ||
+                       spec.quantity == Quantity::angular_velocity;
+  PointProbe probe = make_followed_point(spec.where, rotates);
   probe.quantity = spec.quantity;
   if (!spec.relative_to) return probe;
   const PointProbe base = with_context(
@@ -363,7 +366,8 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   return probe;
 }
 
-PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
+PointProbe Assembly::make_followed_point(const Place& where,
+                                         bool rotates) const {
   const int link = find_link(scene_.robot, where.link);
   const Pose X_BL = sites_.X_BL(link);
   PointProbe probe;
@@ -374,7 +378,7 @@ PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
   const Anchor anchor = find_anchor(sites_.pieces_of(link), where);
   const BodyPlan& plan = sites_.plan_of(link, anchor.piece);
   probe.body = sites_.body_of(link, anchor.piece);
-  if (turns) check_rotation(*anchor.table, Matrix3::Identity());
+  if (rotates) check_rotation(*anchor.table, Matrix3::Identity());
   probe.p_B = anchor.table->p_B;
   probe.Phi_B = anchor.table->Phi_B;
   probe.Psi_B = anchor.table->Psi_B;

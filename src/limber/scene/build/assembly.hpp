@@ -65,7 +65,7 @@ class Assembly {
   StressProbe make_stress_probe(const StressProbeSpec& spec,
                                 std::optional<int> piece = {}) const;
   void add_stress_of_links(std::vector<Probe>& probes) const;
-  PointProbe make_followed_point(const Place& where, bool turns) const;
+  PointProbe make_followed_point(const Place& where, bool rotates) const;
   ContactProbe make_contact_probe(const ContactProbeSpec& spec,
                                   const dynamics::SystemModel& model) const;
   void deform(const dynamics::SystemModel& model,

@@ -69,10 +69,10 @@ Anchor AttachmentSites::find_end_anchor(const Place& where) const {
   }
   Anchor anchor = find_anchor(pieces_of(link), where);
   if (where.point && anchor.table->rotation_rank() < 3) {
-    throw InputError(fmt::format(
-        "'{}' of link '{}' has too few nodes to carry a point beside them; "
-        "leave 'point' out or select more nodes",
-        find_place_interface(where), where.link));
+    throw InputError(
+        fmt::format("'{}' of link '{}' has too few nodes to support a point "
+                    "offset from them; leave 'point' out or select more nodes",
+                    find_place_interface(where), where.link));
   }
   return anchor;
 }

@@ -67,10 +67,12 @@ class Planner {
   void check_name(const BodyPlan& piece) {
     for (const Link& link : robot_.links) {
       if (link.name != piece.name) continue;
-      problems_.add(0, fmt::format("link '{}' is called like piece {} of link "
-                                   "'{}'; rename it",
-                                   link.name, piece.piece + 1,
-                                   robot_.links[index(piece.links[0])].name));
+      problems_.add(
+          0,
+          fmt::format(
+              "link '{}' has the same name as piece {} of link '{}'; rename it",
+              link.name, piece.piece + 1,
+              robot_.links[index(piece.links[0])].name));
     }
   }
 
@@ -98,10 +100,11 @@ class Planner {
   void check_clamped(const Joint& joint, const BodyPlan& parent) {
     if (parent.is_world && joint.kind == joints::JointKind::fixed) return;
     problems_.add(
-        0, fmt::format("link '{}' is clamped to the world, so it must be the "
-                       "root link or hang on 'world' by a fixed joint; joint "
-                       "'{}' does neither",
-                       robot_.links[index(joint.child)].name, joint.name));
+        0,
+        fmt::format(
+            "link '{}' is clamped to the world, so it must be the root link or "
+            "be attached to 'world' by a fixed joint; joint '{}' does neither",
+            robot_.links[index(joint.child)].name, joint.name));
   }
 
   void place(BodyPlan& body) {
@@ -172,8 +175,8 @@ class Planner {
   void check_inertia(const BodyPlan& body) {
     const std::string problem = dynamics::find_inertia_problem(body.inertia);
     if (problem.empty()) return;
-    problems_.add(0, fmt::format("link '{}'{}: {}; --repair-inertia takes the "
-                                 "nearest that a mass has",
+    problems_.add(0, fmt::format("link '{}'{}: {}; --repair-inertia uses the "
+                                 "nearest that is physical",
                                  body.name, find_bad_inertias(body), problem));
   }
 

@@ -36,7 +36,7 @@ double find_size(const dynamics::BodyModel& body) {
 /// how far apart bodies are; the smallest of all groups, so that no group
 /// coarsens another [m].
 double choose_tolerance(const dynamics::SystemModel& model) {
-  constexpr double kShare = 1e-4;
+  constexpr double kFraction = 1e-4;
   double smallest = kInfinity;
   for (const auto& group : dynamics::find_linked_groups(model)) {
     double largest = 0.0;
@@ -45,7 +45,7 @@ double choose_tolerance(const dynamics::SystemModel& model) {
     }
     if (largest > 0.0) smallest = std::min(smallest, largest);
   }
-  return smallest < kInfinity ? kShare * smallest : kShare;
+  return smallest < kInfinity ? kFraction * smallest : kFraction;
 }
 
 void spin(const Scene& scene, BuiltScene& built) {

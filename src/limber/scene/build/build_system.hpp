@@ -23,7 +23,7 @@ struct BuiltScene {
   std::vector<Probe> probes;
   std::vector<PlacedLink> links;  ///< one per link of the robot
   std::vector<std::string> warnings;
-  /// What a user may not expect: the scenario's, then those of building it.
+  /// Notices for the user: the scenario's, then those of building it.
   std::vector<std::string> notes;
   std::vector<flexbody::PieceCheck> piece_checks;  ///< of links in pieces
   KnownBodies known;             ///< all that were reduced or cached

@@ -12,7 +12,7 @@
 namespace limber::scene {
 namespace {
 
-// Frames nearer than this share of a body's farthest distance coincide.
+// Frames nearer than this fraction of a body's farthest distance coincide.
 constexpr double kSamePlace = 1e-6;
 
 double find_largest(const std::vector<double>& values) {

@@ -13,9 +13,9 @@
 #include "limber/common/names.hpp"
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/patches/patch_sides.hpp"
-#include "limber/contact/patches/skin_parts.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/contacts/contact_shapes.hpp"
 #include "limber/scene/text/error_context.hpp"
@@ -88,7 +88,7 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
   if (surface.Phi_B.cols() < columns) {
     throw InputError(fmt::format(
         "surface '{}' of its saved body has no second order, which level "
-        "nonlinear needs; make that anew by 'limber reduce --second-order'",
+        "nonlinear needs; reduce it again by 'limber reduce --second-order'",
         surface.name));
   }
   surface.Phi_B.conservativeResize(Eigen::NoChange, columns);
@@ -104,15 +104,15 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
 contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
   const auto* mesh = std::get_if<MeshGeometry>(&geometry);
   if (mesh == nullptr) return {make_shape(geometry), X_BS};
-  return {
-      std::make_shared<const contact::Skin>(read_collision_mesh(*mesh, X_BS)),
-      Pose{}};
+  return {std::make_shared<const contact::MeshSurface>(
+              read_collision_mesh(*mesh, X_BS)),
+          Pose{}};
 }
 
 const flexbody::ContactSurface* find_surface(const contact::Shape& shape) {
-  const auto* skin =
-      std::get_if<std::shared_ptr<const contact::Skin>>(&shape.kind);
-  return skin == nullptr ? nullptr : &(*skin)->surface();
+  const auto* mesh_surface =
+      std::get_if<std::shared_ptr<const contact::MeshSurface>>(&shape.kind);
+  return mesh_surface == nullptr ? nullptr : &(*mesh_surface)->surface();
 }
 
 // None of a shape that is no mesh, or a mesh that has too many parts.
@@ -138,8 +138,8 @@ std::optional<std::string> describe_error(
       surface.x_B.rowwise().maxCoeff() - surface.x_B.rowwise().minCoeff();
   if (error <= kClose * extent.norm()) return {};
   return fmt::format(
-      "contact of '{}', surface '{}': the convex shapes that stand for it are "
-      "up to {:.2g} m from it; contacts begin where these touch",
+      "contact of '{}', surface '{}': the convex shapes that represent it "
+      "deviate from it by up to {:.2g} m; contact begins at these shapes",
       name, surface.name, error);
 }
 
@@ -219,16 +219,16 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
       // A surface need not reach over all pieces.
       if (plan.piece_count > 1 && !has_surface(*plan.reduced, name)) continue;
       with_context(fmt::format("link '{}'", source.name), [&] {
-        const auto skin = get_skin(plan, name);
-        const flexbody::ContactSurface& surface = skin->surface();
+        const auto mesh_surface = get_mesh_surface(plan, name);
+        const flexbody::ContactSurface& surface = mesh_surface->surface();
         sides.push_back(
             {surfaces.size() > 1 ? plan.name + "." + name : plan.name,
              sites_.body_of(link, plan.piece),
-             make_side({skin, Pose{}},
+             make_side({mesh_surface, Pose{}},
                        contact::SurfaceMaterial{surface.youngs_modulus,
                                                 surface.poisson_ratio},
                        plan)});
-        contact::SkinParts parts = contact::split_skin(surface);
+        contact::SurfaceParts parts = contact::split_surface(surface);
         sides.back().side.bodies = std::move(parts.bodies);
         sides.back().side.slices = std::move(parts.slices);
         sides.back().warning = describe_error(plan.name, surface, parts.error);
@@ -240,20 +240,20 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
 
 // At level `rigid` there are neither modes nor residual flexibility; at
 // `nonlinear` their products are additional modes.
-std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
+std::shared_ptr<const contact::MeshSurface> ContactAssembly::get_mesh_surface(
     const BodyPlan& plan, const std::string& surface) {
   const dynamics::Fidelity level = scene_.scenario.level_of(
       scene_.robot.links[index(plan.links.front())].name);
   const bool is_rigid = level == dynamics::Fidelity::rigid;
   const void* body = plan.full ? static_cast<const void*>(plan.full.get())
                                : static_cast<const void*>(plan.reduced.get());
-  auto& skin = skins_[{body, surface, level}];
-  if (skin) return skin;
+  auto& mesh_surface = mesh_surfaces_[{body, surface, level}];
+  if (mesh_surface) return mesh_surface;
   if (plan.full) {
-    skin = std::make_shared<const contact::Skin>(
+    mesh_surface = std::make_shared<const contact::MeshSurface>(
         find_surface(flexbody::find_contact_surfaces(*plan.full), surface),
         plan.full->node_count());
-    return skin;
+    return mesh_surface;
   }
   flexbody::ContactSurface copy =
       find_surface(plan.reduced->contact_surfaces, surface);
@@ -264,8 +264,8 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     make_rigid_parts(copy.parts);
     make_rigid_slices(copy.slices);
   }
-  skin = std::make_shared<const contact::Skin>(std::move(copy));
-  return skin;
+  mesh_surface = std::make_shared<const contact::MeshSurface>(std::move(copy));
+  return mesh_surface;
 }
 
 // Once for all pairs of a surface.
@@ -281,7 +281,7 @@ ContactAssembly::Side ContactAssembly::cover(const Side& side) {
   if (!side.is_mesh) return side;
   const flexbody::ContactSurface* mesh = find_surface(side.side.shape);
   const auto [found, is_new] = covers_.try_emplace(mesh);
-  contact::SkinParts& hulls = found->second;
+  contact::SurfaceParts& hulls = found->second;
   if (is_new) hulls = contact::cover_mesh(*mesh);
   Side covered = side;
   covered.side.bodies = hulls.bodies;
@@ -302,7 +302,7 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
   const Side of_A = suits ? A : cover(A);
   const Side of_B = suits ? B : cover(B);
   // A ball touches the surface itself.
-  if (!contact::has_ball_on_skin(of_A.side, of_B.side)) {
+  if (!contact::has_ball_on_surface(of_A.side, of_B.side)) {
     warn(of_A);
     warn(of_B);
   }

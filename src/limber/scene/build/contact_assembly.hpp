@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "limber/contact/patches/skin_parts.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/scene/build/attachment_sites.hpp"
 #include "limber/scene/build/body_plan.hpp"
@@ -46,8 +46,8 @@ class ContactAssembly {
   [[nodiscard]] Sides make_obstacle(const ObstacleSpec& obstacle) const;
   [[nodiscard]] Sides make_rigid(int link) const;
   [[nodiscard]] Sides make_flexible(int link);
-  std::shared_ptr<const contact::Skin> get_skin(const BodyPlan& plan,
-                                                const std::string& surface);
+  std::shared_ptr<const contact::MeshSurface> get_mesh_surface(
+      const BodyPlan& plan, const std::string& surface);
   [[nodiscard]] Side cover(const Side& side);
   void warn(const Side& side);
   void add_pair(std::size_t touching, const Side& A, const Side& B,
@@ -60,9 +60,9 @@ class ContactAssembly {
   std::map<Toucher, Sides> sides_;
   /// By the body's reduction, the surface, and its level.
   std::map<std::tuple<const void*, std::string, dynamics::Fidelity>,
-           std::shared_ptr<const contact::Skin>>
-      skins_;
-  std::map<const flexbody::ContactSurface*, contact::SkinParts> covers_;
+           std::shared_ptr<const contact::MeshSurface>>
+      mesh_surfaces_;
+  std::map<const flexbody::ContactSurface*, contact::SurfaceParts> covers_;
 };
 
 }  // namespace limber::scene

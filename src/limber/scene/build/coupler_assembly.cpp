@@ -16,12 +16,12 @@
 namespace limber::scene {
 namespace {
 
-/// A joint farther from its interface than this share of the body's size gets
-/// a warning.
-constexpr double kFarShare = 0.05;
+/// A joint farther from its interface than this fraction of the body's size
+/// gets a warning.
+constexpr double kFarFraction = 0.05;
 
 /// Largest gap between the ends of a loop, relative to its size.
-constexpr double kGapShare = 1e-6;
+constexpr double kGapFraction = 1e-6;
 /// Round-off of the ends, relative to their places.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -96,7 +96,7 @@ void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
   const flexbody::InterfaceTable& table = *site.anchor.table;
   const double distance = (site.X_BF.p - table.p_B).norm();
   if (distance >
-      kFarShare *
+      kFarFraction *
           sites_.plan_of(link, site.anchor.piece).reduced->size.norm()) {
     warnings_.push_back(fmt::format(
         "joint '{}' is {:.3g} m from the middle of interface '{}' of link "
@@ -112,7 +112,7 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
     if (plan.piece_count > 1) {
       throw InputError(fmt::format(
           "joint '{}': damping of a floating link in pieces would act on its "
-          "first piece alone; leave link '{}' in one piece",
+          "first piece only; leave link '{}' in one piece",
           joint.name, scene_.robot.links[index(link)].name));
     }
     return sites_.find_site(link, X_LF, {});
@@ -121,8 +121,8 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
   const std::string interface =
       find_joint_interface(*source.flexible, joint.name);
   const Anchor anchor = with_context(
-      fmt::format("joint '{}' on link '{}', which it holds at {}", joint.name,
-                  source.name,
+      fmt::format("joint '{}' on link '{}', to which it is attached at {}",
+                  joint.name, source.name,
                   interface == joint.name
                       ? "the interface of the joint's own name"
                       : "the interface that <attach> names"),
@@ -155,7 +155,7 @@ void CouplerAssembly::record_default(const std::string& name,
                                      const CouplerOptions& options,
                                      const AttachmentSite& F,
                                      const AttachmentSite& M,
-                                     const joints::HoldStiffness& held) {
+                                     const joints::ConstraintStiffness& held) {
   if (F.side.flexibility || M.side.flexibility) return;
   if ((!options.translational_stiffness && held.translational > 0.0) ||
       (!options.rotational_stiffness && held.rotational > 0.0)) {
@@ -198,13 +198,13 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
   }
   const joints::CouplerLaw law = joints::make_joint(
       spec.kind, spec.axis, spec.second, held, std::move(elements));
-  record_default(
-      spec.name, spec.coupler, F, M,
-      joints::find_hold_stiffness(law).value_or(joints::HoldStiffness{}));
+  record_default(spec.name, spec.coupler, F, M,
+                 joints::find_constraint_stiffness(law).value_or(
+                     joints::ConstraintStiffness{}));
   const dynamics::CouplerIndex coupler = add_coupler(spec.name, law, F, M);
   if (coordinates.size() == 1) {
     geared_[spec.name] = {
-        coupler, find_hold(coordinates[0], held), coordinates, {F, M}};
+        coupler, find_constraint(coordinates[0], held), coordinates, {F, M}};
   }
 }
 
@@ -234,7 +234,7 @@ void CouplerAssembly::check_gap(const LoopEnds& ends,
   }
   const double gap = (to.p - from.p).norm();
   const double rounding = kRounding * (from.p.norm() + to.p.norm());
-  if (gap <= kGapShare * size + rounding) return;
+  if (gap <= kGapFraction * size + rounding) return;
   throw InputError(fmt::format(
       "its ends are {:.3g} m apart {}, at ({:.6g}, {:.6g}, {:.6g}) and "
       "({:.6g}, {:.6g}, {:.6g}) m; they must meet there",
@@ -336,8 +336,8 @@ void CouplerAssembly::check_start(const Gear& gear) {
                      std::abs(gear.offset);
   if (std::abs(excess) <= kStretched * sum) return;
   warnings_.push_back(fmt::format(
-      "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, "
-      "and joint '{}' asks for {:g}",
+      "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, and joint "
+      "'{}' requires {:g}",
       gear.name, excess, gear.joint, place(joint->second), gear.with, needed));
 }
 
@@ -354,8 +354,9 @@ void CouplerAssembly::add_gear(const Gear& gear) {
   dynamics::JointSum sum;
   sum.terms = {{joint.coupler, 0, 1.0}, {with.coupler, 0, -gear.ratio}};
   sum.offset = gear.offset;
-  builder_.add_joint_sum(gear.name, sum,
-                         {make_gear_spring(gear, joint.hold, with.hold)});
+  builder_.add_joint_sum(
+      gear.name, sum,
+      {make_gear_spring(gear, joint.constraint, with.constraint)});
 }
 
 }  // namespace limber::scene

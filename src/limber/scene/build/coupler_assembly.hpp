@@ -46,7 +46,7 @@ class CouplerAssembly {
   /// A joint of the model with one coordinate, for gears.
   struct Geared {
     dynamics::CouplerIndex coupler;
-    Hold hold;
+    Constraint constraint;
     std::vector<joints::AxisCoordinate> coordinates;
     std::array<AttachmentSite, 2> sites;  ///< of F and M
   };
@@ -54,7 +54,7 @@ class CouplerAssembly {
   [[nodiscard]] double choose_rigid_frequency(const Vector3& p_W) const;
   void record_default(const std::string& name, const CouplerOptions& options,
                       const AttachmentSite& F, const AttachmentSite& M,
-                      const joints::HoldStiffness& held);
+                      const joints::ConstraintStiffness& held);
   void add_joint(int index);
   void add_joint(const JointSpec& spec, const AttachmentSite& F,
                  const AttachmentSite& M);

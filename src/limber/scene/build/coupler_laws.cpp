@@ -40,7 +40,8 @@ ScalarSpring make_linear(double stiffness, double damping, double rest,
 
 }  // namespace
 
-Hold find_hold(const AxisCoordinate& coordinate, const JointParameters& held) {
+Constraint find_constraint(const AxisCoordinate& coordinate,
+                           const JointParameters& held) {
   if (coordinate.kind == AxisCoordinate::Kind::angle) {
     return {held.rotational_stiffness, held.rotational_damping};
   }
@@ -55,19 +56,17 @@ std::vector<joints::JointElement> make_elements(
   for (const JointAction& action : actions) {
     const AxisCoordinate& coordinate =
         coordinates.at(static_cast<std::size_t>(action.coordinate));
-    const bool turns = coordinate.kind == AxisCoordinate::Kind::angle;
+    const bool rotates = coordinate.kind == AxisCoordinate::Kind::angle;
     const ScalarLaw law = std::visit(
-        Overloaded{
-            [&](const StopOptions& stop) -> ScalarLaw {
-              return make_stop(
-                  stop, turns ? stiffness.rotational : stiffness.translational);
-            },
-            [](const joints::Friction::Parameters& friction) -> ScalarLaw {
-              return joints::Friction(friction);
-            },
-            [](const ScalarSpring::Parameters& spring) -> ScalarLaw {
-              return ScalarSpring(spring);
-            }},
+        Overloaded{[&](const StopOptions& stop) -> ScalarLaw {
+                     return make_stop(stop, rotates ? stiffness.rotational
+                                                    : stiffness.translational);
+                   },
+                   [](const joints::Friction::Parameters& friction)
+                       -> ScalarLaw { return joints::Friction(friction); },
+                   [](const ScalarSpring::Parameters& spring) -> ScalarLaw {
+                     return ScalarSpring(spring);
+                   }},
         action.law);
     elements.push_back({action.coordinate, law});
   }
@@ -117,11 +116,11 @@ std::vector<ScalarLaw> make_tendon_laws(const Tendon& tendon, double length) {
   return laws;
 }
 
-ScalarSpring make_gear_spring(const Gear& gear, const Hold& joint,
-                              const Hold& with) {
+ScalarSpring make_gear_spring(const Gear& gear, const Constraint& joint,
+                              const Constraint& with) {
   const double square = gear.ratio * gear.ratio;
-  const Hold other{with.stiffness / square, with.damping / square};
-  const Hold& softer = other.stiffness < joint.stiffness ? other : joint;
+  const Constraint other{with.stiffness / square, with.damping / square};
+  const Constraint& softer = other.stiffness < joint.stiffness ? other : joint;
   return make_linear(gear.stiffness.value_or(softer.stiffness),
                      gear.damping.value_or(softer.damping), 0.0, false);
 }

@@ -40,20 +40,21 @@ using dynamics::StopStiffness;
     const Tendon& tendon, double length);
 
 /// Stiffness and damping along a coordinate.
-struct Hold {
+struct Constraint {
   double stiffness = 0.0;  ///< [N m/rad or N/m]
   double damping = 0.0;    ///< [N m s/rad or N s/m]
 };
 
 /// A joint's stiffness and damping of constrained rotations for an angle, of
 /// translations for a distance.
-[[nodiscard]] Hold find_hold(const joints::AxisCoordinate& coordinate,
-                             const joints::JointParameters& held);
+[[nodiscard]] Constraint find_constraint(
+    const joints::AxisCoordinate& coordinate,
+    const joints::JointParameters& held);
 
 /// Spring and damper of q - ratio q_with - offset. Default values are those of
 /// the softer joint, for q_with referred to q: / ratio^2.
 [[nodiscard]] joints::ScalarSpring make_gear_spring(const Gear& gear,
-                                                    const Hold& joint,
-                                                    const Hold& with);
+                                                    const Constraint& joint,
+                                                    const Constraint& with);
 
 }  // namespace limber::scene

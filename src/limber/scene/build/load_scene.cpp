@@ -123,9 +123,9 @@ void add_contacts(Scene& scene) {
   }
   for (const std::size_t idle : touching.idle) {
     scene.scenario.warnings.push_back(fmt::format(
-        "[[contact]] {} changes nothing: others decide all its pairs; those "
-        "that name both bodies come before those with patterns, and of these "
-        "the first",
+        "[[contact]] {} changes nothing: other [[contact]] tables take "
+        "precedence for all its pairs: those that name both bodies come before "
+        "those with patterns, and of these the first counts",
         idle + 1));
   }
   scene.touching = std::move(touching.pairs);
@@ -141,9 +141,9 @@ void note_falling(Scene& scene) {
       links.size() == 1 ? ""
                         : fmt::format(", and so do {} more", links.size() - 1);
   scenario.notes.push_back(fmt::format(
-      "link '{}' falls freely, with all that hangs on it{}: nothing holds it "
-      "against gravity; base = \"fixed\" in {} (--set robot{}.base=fixed) "
-      "fixes a robot to the world where it stands",
+      "link '{}' falls freely, with everything attached to it{}: nothing "
+      "supports it against gravity; base = \"fixed\" in {} (--set "
+      "robot{}.base=fixed) fixes a robot to the world where it stands",
       links.front(), others, is_one ? "[robot]" : "its [[robot]]",
       is_one ? "" : ".NAME"));
 }

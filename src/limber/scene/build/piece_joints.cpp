@@ -51,10 +51,11 @@ joints::Bushing make_cut_bushing(const Matrix6& F, const Matrix6& M,
   parameters.translational_stiffness = K.topLeftCorner<3, 3>();
   parameters.rotational_stiffness = K.bottomRightCorner<3, 3>();
   parameters.coupling_stiffness = K.topRightCorner<3, 3>();
-  const double share = damping.rayleigh_stiffness;
-  parameters.translational_damping = share * parameters.translational_stiffness;
-  parameters.rotational_damping = share * parameters.rotational_stiffness;
-  parameters.coupling_damping = share * parameters.coupling_stiffness;
+  const double fraction = damping.rayleigh_stiffness;
+  parameters.translational_damping =
+      fraction * parameters.translational_stiffness;
+  parameters.rotational_damping = fraction * parameters.rotational_stiffness;
+  parameters.coupling_damping = fraction * parameters.coupling_stiffness;
   return joints::Bushing(parameters);
 }
 

@@ -11,7 +11,7 @@ namespace limber::scene {
 /// The bushing that holds two pieces together at a cut.
 ///
 /// Equation   K of flexbody::calc_cut_stiffness(). Damping: rayleigh_stiffness
-///            K, as of the material around it
+///            K, as in the material around it
 /// @param F, M flexibilities in the axes of F [m/N, rad/(N m)]
 [[nodiscard]] joints::Bushing make_cut_bushing(
     const Matrix6& F, const Matrix6& M, const dynamics::ModalDamping& damping);

@@ -50,8 +50,8 @@ void require_place(Recipe& recipe, const Place& place,
   } else if (known->nodes != *place.nodes ||
              known->weighting != place.weighting) {
     throw InputError(fmt::format(
-        "interface '{}' is called like another selection, {}; rename it", name,
-        flexbody::describe(*place.nodes)));
+        "interface '{}' has the same name as another selection, {}; rename it",
+        name, flexbody::describe(*place.nodes)));
   }
 }
 
@@ -144,9 +144,9 @@ std::string name_held_joint(const Robot& robot, int index,
       continue;
     }
     return fmt::format(
-        "joint '{}' holds it at {}, and there is none: {}; add <interface "
-        "name=\"{}\"> with its nodes, or choose one by <attach joint=\"{}\" "
-        "interface=\"NAME\"/> ({})",
+        "joint '{}' is attached to it at {}, which does not exist: {}; add "
+        "<interface name=\"{}\"> with its nodes, or choose one by <attach "
+        "joint=\"{}\" interface=\"NAME\"/> ({})",
         joint.name,
         name == joint.name ? "an interface of the joint's own name"
                            : "the interface that <attach> names",

@@ -149,14 +149,14 @@ class Reduction {
     }
     if (!link.flexible->clamped_groups.empty() && !body->clamped) {
       throw InputError(
-          "it has a <clamp>, but its saved body was made without one; make "
-          "that anew by 'limber reduce --clamp GROUP'");
+          "it has a <clamp>, but its saved body was made without one; reduce "
+          "it again by 'limber reduce --clamp GROUP'");
     }
     if (scene_.scenario.level_of(link.name) == dynamics::Fidelity::nonlinear &&
         !body->manifold) {
       throw InputError(
           "level nonlinear needs second-order tables, which its saved body "
-          "does not have; make that anew by 'limber reduce --second-order'");
+          "does not have; reduce it again by 'limber reduce --second-order'");
     }
     if (needs_stress_modes(scene_.scenario, link.name)) {
       require_stress(*body, scene_.scenario.level_of(link.name));

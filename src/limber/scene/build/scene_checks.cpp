@@ -77,10 +77,10 @@ class Checker {
     const auto check = [&](const char* kind, const auto& all) {
       for (const auto& one : all) {
         if (taken.insert(one.name).second) continue;
-        problems_.add(0, fmt::format("{} '{}' is called like another link, "
-                                     "robot, projectile or obstacle; rename "
-                                     "it",
-                                     kind, one.name));
+        problems_.add(0,
+                      fmt::format("{} '{}' has the same name as another link, "
+                                  "robot, projectile or obstacle; rename it",
+                                  kind, one.name));
       }
     };
     check("projectile", scenario_.projectiles);
@@ -121,10 +121,11 @@ class Checker {
 
   void check_flexible_place(const std::string& who, const Place& place) {
     if (!place.point && (place.nodes || !place.interface.empty())) return;
-    problems_.add(0, fmt::format("{}: link '{}' is flexible; say where by "
-                                 "'interface', 'group', 'node', 'nearest', "
-                                 "'box', 'plane' or 'cylinder'",
-                                 who, place.link));
+    problems_.add(
+        0, fmt::format(
+               "{}: link '{}' is flexible; select the location by 'interface', "
+               "'group', 'node', 'nearest', 'box', 'plane' or 'cylinder'",
+               who, place.link));
   }
 
   void check_probe(const std::string& who, const CouplerProbeSpec& probe) {
@@ -157,8 +158,8 @@ class Checker {
         find_named(who, "probe", column.substr(0, dot), scenario_.probes);
         continue;
       }
-      problems_.add(0, fmt::format("{}: '{}' is no column of a probe; expected "
-                                   "PROBE.COLUMN, such as 'tip.ux'",
+      problems_.add(0, fmt::format("{}: '{}' is not a column of a probe; "
+                                   "expected PROBE.COLUMN, such as 'tip.ux'",
                                    who, column));
     }
   }
@@ -183,9 +184,9 @@ class Checker {
       problems_.add(
           0, who + ": link '" + link->name + "' is rigid; it does not deform");
     }
-    const bool turns = probe.quantity == Quantity::rotation ||
-                       probe.quantity == Quantity::angular_velocity;
-    if (turns) require_rotation(who, probe.where);
+    const bool rotates = probe.quantity == Quantity::rotation ||
+                         probe.quantity == Quantity::angular_velocity;
+    if (rotates) require_rotation(who, probe.where);
     if (!probe.relative_to) return;
     const std::string base = who + ", 'relative_to'";
     check_place(base, *probe.relative_to);
@@ -193,7 +194,7 @@ class Checker {
     if (probe.quantity == Quantity::deformation) {
       problems_.add(0, who +
                            ": 'deformation' is relative to the link's own mean "
-                           "axes; ask for 'displacement' with 'relative_to'");
+                           "axes; use 'displacement' with 'relative_to'");
     }
   }
 

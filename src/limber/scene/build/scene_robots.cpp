@@ -73,7 +73,7 @@ bool needs_fixed_base(const std::string& who, const Robot& robot,
   if (is_held(robot)) {
     if (base) {
       warnings.push_back(fmt::format(
-          "{} base changes nothing: the root link '{}' is held already", who,
+          "{} base changes nothing: the root link '{}' is already fixed", who,
           robot.links.front().name));
     }
     return false;

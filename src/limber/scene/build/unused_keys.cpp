@@ -50,12 +50,12 @@ class Finder {
     return found != nullptr && found->contains(key);
   }
 
-  void tell(const std::string& what, const std::string& why) {
+  void warn(const std::string& what, const std::string& why) {
     texts_.push_back(fmt::format("{} changes nothing: {}", what, why));
   }
 
-  void tell(const char* table, const char* key, const std::string& why) {
-    if (has(table, key)) tell(fmt::format("[{}] {}", table, key), why);
+  void warn(const char* table, const char* key, const std::string& why) {
+    if (has(table, key)) warn(fmt::format("[{}] {}", table, key), why);
   }
 
   [[nodiscard]] bool is_any_flexible() const {
@@ -77,21 +77,21 @@ class Finder {
         fmt::format("the integrator is {}", dynamics::to_string(kind));
     const dynamics::IntegratorTraits& traits = dynamics::traits_of(kind);
     if (!traits.has_spectral_radius) {
-      tell("time", "rho_inf", it_is + "; generalized-alpha alone has it");
+      warn("time", "rho_inf", it_is + "; only generalized-alpha has it");
     }
     if (!traits.is_implicit) {
-      const std::string why = it_is + ", which solves nothing by Newton";
-      tell("time", "newton_tolerance", why);
-      tell("time", "newton_iterations", why);
+      const std::string why = it_is + ", which does not use Newton's method";
+      warn("time", "newton_tolerance", why);
+      warn("time", "newton_iterations", why);
     }
     if (scenario_.contacts.empty()) {
-      tell("time", "impact_steps", "there is no contact");
+      warn("time", "impact_steps", "there is no contact");
     }
     if (time.tolerance == 0.0) {
-      tell("time", "most_steps", "it limits steps to a tolerance alone");
+      warn("time", "most_steps", "it applies only to steps by a tolerance");
     }
     if (!traits.takes_exact_modes && time.exact_modes) {
-      tell("time", "exact_modes", it_is + ", which has no closed form");
+      warn("time", "exact_modes", it_is + ", which has no closed form");
     }
   }
 
@@ -101,14 +101,14 @@ class Finder {
     const std::string none = "no link is at level ";
     if (!is_any_at(Fidelity::full)) {
       if (!is_any_at(Fidelity::nonlinear)) {
-        tell("full", "law", none + "full or nonlinear");
+        warn("full", "law", none + "full or nonlinear");
       }
-      tell("full", "mass", none + "full");
+      warn("full", "mass", none + "full");
     }
     look_at_law();
     if (!is_any_at(Fidelity::uncoupled) &&
         dynamics::traits_of(scenario_.settings.integrator).takes_exact_modes) {
-      tell("time", "exact_modes", none + "uncoupled");
+      warn("time", "exact_modes", none + "uncoupled");
     }
     const bool are_all_listed =
         std::all_of(links_.begin(), links_.end(), [&](const Link& link) {
@@ -116,7 +116,7 @@ class Finder {
                  scenario_.fidelity_of_link.contains(link.name);
         });
     if (is_any_flexible() && are_all_listed) {
-      tell("fidelity", "default", "'links' names every flexible link");
+      warn("fidelity", "default", "'links' names every flexible link");
     }
   }
 
@@ -125,11 +125,11 @@ class Finder {
     const std::string why =
         fmt::format("no link of '{}' is flexible", robot_file_);
     if (scenario_.fidelity != Fidelity::rigid && !overrides_.fidelity) {
-      tell("fidelity", "default", why);
+      warn("fidelity", "default", why);
     }
-    if (scenario_.output.stress) tell("output", "stress", why);
+    if (scenario_.output.stress) warn("output", "stress", why);
     for (const char* table : {"basis", "advice"}) {
-      if (file_.contains(table)) tell(fmt::format("[{}]", table), why);
+      if (file_.contains(table)) warn(fmt::format("[{}]", table), why);
     }
   }
 
@@ -141,7 +141,7 @@ class Finder {
           scenario_.level_of(link.name) != Fidelity::nonlinear) {
         continue;
       }
-      tell("[full] law of link '" + link.name + "'",
+      warn("[full] law of link '" + link.name + "'",
            fmt::format("its saved body has the second order of {}",
                        to_string(flexbody::FullOptions{}.law)));
     }
@@ -152,7 +152,7 @@ class Finder {
     for (const Link& link : links_) {
       const Fidelity level = scenario_.level_of(link.name);
       if (!link.flexible || has_stress(level)) continue;
-      tell("[output] stress of link '" + link.name + "'", explain_no_stress());
+      warn("[output] stress of link '" + link.name + "'", explain_no_stress());
     }
   }
 
@@ -163,9 +163,9 @@ class Finder {
       if (!link.flexible || link.flexible->pieces == 1) continue;
       const Fidelity level = scenario_.level_of(link.name);
       if (takes_pieces(level)) continue;
-      tell("'pieces' of link '" + link.name + "'",
-           fmt::format("level {} takes the whole mesh; coupled and nonlinear "
-                       "are of pieces",
+      warn("'pieces' of link '" + link.name + "'",
+           fmt::format("level {} takes the whole mesh; only coupled and "
+                       "nonlinear use pieces",
                        to_string(level)));
     }
   }
@@ -181,21 +181,21 @@ class Finder {
     const std::string who = "load '" + load.name + "'";
     if (load.nodal_forces.empty() && load.force.isZero(0.0) &&
         load.moment.isZero(0.0)) {
-      tell(who, "its force and moment are zero");
+      warn(who, "its force and moment are zero");
       return;
     }
     const double end = scenario_.settings.end_time;
     for (const char* key : {"from", "start"}) {
       const std::optional<double> from = find_time(i, key);
       if (from && *from >= end) {
-        tell(who, fmt::format("it acts from {:g} s on, and the run ends at {:g}"
+        warn(who, fmt::format("it acts from {:g} s on, and the run ends at {:g}"
                               " s",
                               *from, end));
       }
     }
     const std::optional<double> until = find_time(i, "until");
     if (until && *until <= 0.0) {
-      tell(who, fmt::format("it acts until {:g} s, and the run begins at 0 s",
+      warn(who, fmt::format("it acts until {:g} s, and the run begins at 0 s",
                             *until));
     }
   }
@@ -236,9 +236,9 @@ class Finder {
       const ControllerSpec& controller = scenario_.controllers[i];
       const std::string who = "controller '" + controller.name + "'";
       if (!is_followed(static_cast<int>(i))) {
-        tell(who, "no load and no drive follows it, and no probe has it");
+        warn(who, "no load and no drive follows it, and no probe has it");
       } else if (controller.offset > end) {
-        tell(who, fmt::format("its first sample is at {:g} s, and the run ends "
+        warn(who, fmt::format("its first sample is at {:g} s, and the run ends "
                               "at {:g} s",
                               controller.offset, end));
       }
@@ -249,7 +249,7 @@ class Finder {
     const double end = scenario_.settings.end_time;
     for (const auto& [latch, time] : scenario_.releases) {
       if (time < end) continue;
-      tell(fmt::format("[[release]] of latch '{}'", latch),
+      warn(fmt::format("[[release]] of latch '{}'", latch),
            fmt::format("it comes at {:g} s, and the run ends at {:g} s", time,
                        end));
     }
@@ -260,7 +260,7 @@ class Finder {
     if (defaults == nullptr) return;
     const std::size_t count = scenario_.contacts.size();
     if (count == 0) {
-      tell("[contact_default]", "there is no [[contact]]");
+      warn("[contact_default]", "there is no [[contact]]");
       return;
     }
     for (const auto& [key, node] : *defaults) {
@@ -274,7 +274,7 @@ class Finder {
         is_used = is_used || !is_replaced;
       }
       if (!is_used) {
-        tell("[contact_default] " + name, "every [[contact]] has its own");
+        warn("[contact_default] " + name, "every [[contact]] has its own");
       }
     }
   }
@@ -283,7 +283,7 @@ class Finder {
     for (std::size_t i = 0; i < scenario_.contacts.size(); ++i) {
       const ContactOptions& options = scenario_.contacts[i].options;
       if (!options.stribeck_speed || options.static_friction) continue;
-      tell(fmt::format("stribeck_speed of [[contact]] {}", i + 1),
+      warn(fmt::format("stribeck_speed of [[contact]] {}", i + 1),
            "there is no static_friction");
     }
   }
@@ -298,7 +298,7 @@ class Finder {
   void look_at_obstacles() {
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
       if (is_touching({true, i})) continue;
-      tell("obstacle '" + scenario_.obstacles[i].name + "'",
+      warn("obstacle '" + scenario_.obstacles[i].name + "'",
            "no [[contact]] names it");
     }
   }
@@ -308,7 +308,7 @@ class Finder {
       const LinkContact& contact = links_[i].contact;
       const bool is_given = contact.material || !contact.surfaces.empty();
       if (!is_given || is_touching({false, i})) continue;
-      tell("<contact> of link '" + links_[i].name + "'",
+      warn("<contact> of link '" + links_[i].name + "'",
            "no [[contact]] names it");
     }
   }
@@ -329,7 +329,7 @@ class Finder {
   void look_at_packages() {
     for (const auto& [name, folder] : scenario_.urdf.packages) {
       if (has_mesh_in(folder)) continue;
-      tell("[urdf] packages." + name, "no mesh of a robot is found in it");
+      warn("[urdf] packages." + name, "no mesh of a robot is found in it");
     }
   }
 

@@ -98,7 +98,7 @@ class JointJudge {
   [[nodiscard]] std::string judge_friction(std::optional<double> value) const {
     const auto* friction = find_action<joints::Friction::Parameters>(joint_);
     if (friction == nullptr || friction->coulomb == value) return "";
-    return "the <friction> of its <coupler> is in its place";
+    return "the <friction> of its <coupler> replaces it";
   }
 
   [[nodiscard]] std::string judge_damping(std::optional<double> value) const {
@@ -116,7 +116,7 @@ class JointJudge {
     if (!is_rotation && !path.starts_with("translational_")) return "";
     const bool is_free = joint_.kind == JointKind::floating ||
                          (joint_.kind == JointKind::ball && is_rotation);
-    return is_free ? fmt::format("{}, which holds no {}", name_type(),
+    return is_free ? fmt::format("{}, which constrains no {}", name_type(),
                                  is_rotation ? "rotation" : "translation")
                    : "";
   }

@@ -86,7 +86,7 @@ class Joiner {
     const double size = box_.maxCoeff();
     const double same = kSame * size;
     if (!(same > 0.0) || !std::isfinite(box_.norm())) {
-      refuse("has no size that numbers can hold");
+      refuse("has a size that double precision cannot represent");
     }
     Corners corners(low, same);
     for (const Triangle& triangle : triangles) {
@@ -150,11 +150,11 @@ class Joiner {
       if (count == 1 && others == 1) continue;
       if (count + others == 1) {
         refuse("is open: " + describe_edge(edge) +
-               " belongs to one triangle alone; close it");
+               " belongs to only one triangle; close it");
       }
       if (count + others == 2) {
         refuse("has triangles of opposite senses on both sides of " +
-               describe_edge(edge) + "; turn one over");
+               describe_edge(edge) + "; flip one");
       }
       refuse(fmt::format("joins {} triangles in {}; expected two",
                          count + others, describe_edge(edge)));
@@ -169,8 +169,8 @@ class Joiner {
     }
     if (volume > 0.0) return;
     refuse(fmt::format(
-        "is turned inside out (volume {:.3g} m^3): corners of triangles must "
-        "follow each other counter-clockwise as seen from outside",
+        "is inside out (volume {:.3g} m^3): corners of triangles must follow "
+        "each other counter-clockwise as seen from outside",
         volume));
   }
 

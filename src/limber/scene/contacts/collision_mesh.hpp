@@ -16,7 +16,7 @@ namespace limber::scene {
 /// half of the smallest side of the box around the surface.
 /// @param name in messages
 /// @throws InputError, with the place, for a triangle without area, and for a
-/// surface that is open, is turned inside out, joins more than two triangles in
+/// surface that is open, is inside out, joins more than two triangles in
 /// one edge or intersects itself.
 [[nodiscard]] flexbody::ContactSurface join_triangles(
     const std::vector<Triangle>& triangles, const std::string& name);

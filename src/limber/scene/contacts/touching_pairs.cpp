@@ -76,11 +76,12 @@ void check_shapes(const Link& link) {
       throw InputError(fmt::format("link '{}' needs its <collision> here: {}",
                                    link.name, other->reason));
     }
-    throw InputError(fmt::format(
-        "link '{}' has a <{}> in its <collision>, which contacts do not know; "
-        "give <sphere>, <box>, <cylinder>, <capsule>, <cone>, <ellipsoid> or "
-        "<mesh>, or make the link flexible: its own mesh touches then",
-        link.name, other->tag));
+    throw InputError(
+        fmt::format("link '{}' has a <{}> in its <collision>, which contacts "
+                    "do not support; use <sphere>, <box>, <cylinder>, "
+                    "<capsule>, <cone>, <ellipsoid> or <mesh>, or make the "
+                    "link flexible: its own mesh is then the contact shape",
+                    link.name, other->tag));
   }
 }
 
@@ -156,13 +157,13 @@ class PairFinder {
     }
     if (pairs.size() > kMostPairs) {
       throw InputError(fmt::format(
-          "stands for {} pairs of bodies; at most {} are taken: name fewer",
+          "matches {} pairs of bodies; at most {} are allowed: name fewer",
           pairs.size(), kMostPairs));
     }
     if (pairs.empty()) {
       throw InputError(
-          "leaves no pair of bodies that can meet; a pattern does not stand "
-          "for links that a joint connects directly: name both for these");
+          "leaves no pair of bodies that can be in contact; a pattern does not "
+          "match links that a joint connects directly: name both for these");
     }
     return pairs;
   }
@@ -189,8 +190,7 @@ class PairFinder {
     if (!found.empty()) return found;
     if (exact) {
       throw InputError(fmt::format(
-          "link '{}' has no shape that could touch; give it a <collision>",
-          name));
+          "link '{}' has no contact shape; give it a <collision>", name));
     }
     throw InputError(
         is_any
@@ -212,9 +212,10 @@ class PairFinder {
   }
 
   void check_exact(std::size_t contact, const Toucher& A, const Toucher& B) {
-    if (A == B) throw InputError("names one body twice; take two");
+    if (A == B) throw InputError("names one body twice; name two");
     if (is_fixed_in_world(A) && is_fixed_in_world(B)) {
-      throw InputError("both are fixed in the world; they never meet");
+      throw InputError(
+          "both are fixed in the world and can never be in contact");
     }
     if (are_fixed_together(A, B)) {
       throw InputError("fixed joints make them one rigid body");

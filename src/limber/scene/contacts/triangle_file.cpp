@@ -133,7 +133,7 @@ class Reader {
       const auto number = parse_number(words[i + 1]);
       if (!number) {
         refuse_line(
-            fmt::format("'{}' is no finite number", echo(words[i + 1])));
+            fmt::format("'{}' is not a finite number", echo(words[i + 1])));
       }
       point[static_cast<Eigen::Index>(i)] = *number;
     }

@@ -126,7 +126,7 @@ dynamics::SystemModel without_dry_friction(dynamics::SystemModel model) {
     for (joints::JointElement& element : parameters.elements) {
       element.law = without_dry(element.law);
     }
-    coupler.law = joints::Joint(parameters.hold, parameters.coordinates,
+    coupler.law = joints::Joint(parameters.constraint, parameters.coordinates,
                                 parameters.elements);
   }
   for (dynamics::Transmission& line : model.transmissions) {
@@ -281,7 +281,7 @@ std::string find_better_step(const Judged& judged, dynamics::LoopSteps steps) {
            std::log(0.5 * parts) / std::log(kMostSteps));
     steps.longest *= 0.5;
     if (!judged.find_false(steps)) {
-      return fmt::format("take a step of {:.3g} s", steps.longest);
+      return fmt::format("use a step of {:.3g} s", steps.longest);
     }
   }
   return "give the controller a filter";

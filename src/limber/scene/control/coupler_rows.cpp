@@ -176,10 +176,10 @@ VectorRows find_vector_rows(const CouplerProbeSpec& spec,
   }
 }
 
-/// Turned from F to the probe's axes, which turn with the motion.
-CouplerRows turn(ProbeAxes axes, const dynamics::CouplerReading& reading,
-                 const VectorRows& in_F, const LinkRows& link,
-                 const Matrix3X& turn_F) {
+/// Rotated from F to the probe's axes, which rotate with the motion.
+CouplerRows rotate(ProbeAxes axes, const dynamics::CouplerReading& reading,
+                   const VectorRows& in_F, const LinkRows& link,
+                   const Matrix3X& turn_F) {
   if (axes == ProbeAxes::M) {
     const Matrix3 R = reading.motion.R_FM.transpose();
     return {
@@ -208,8 +208,8 @@ CouplerRows find_coupler_rows(const CouplerProbe& probe,
   const dynamics::CouplerReading reading =
       dynamics::evaluate_coupler(model, state, probe.coupler);
   if (is_vector(probe.spec.quantity)) {
-    return turn(probe.spec.axes, reading,
-                find_vector_rows(probe.spec, reading, link), link, turn_F);
+    return rotate(probe.spec.axes, reading,
+                  find_vector_rows(probe.spec, reading, link), link, turn_F);
   }
   const auto& law = model.couplers[index(probe.coupler)].law;
   if (std::holds_alternative<joints::PointSpring>(law)) {

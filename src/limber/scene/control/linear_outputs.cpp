@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 using dynamics::AttachmentIndex;
 
 const char* const kNotSmooth =
-    "what bodies exert where they touch comes and goes, and has no derivative";
+    "contact forces begin and end, and have no derivative";
 
 dynamics::Attachment attach(const PointProbe& point,
                             const dynamics::SystemModel& model,
@@ -204,7 +204,7 @@ class Outputs {
   std::string why_none_;
 };
 
-bool is_asked_for(const Probe& probe) {
+bool is_requested(const Probe& probe) {
   const auto* stress = std::get_if<StressProbe>(&probe.of);
   return stress == nullptr || !stress->is_of_link;
 }
@@ -242,7 +242,7 @@ std::vector<LinearOutput> find_linear_outputs(
     const dynamics::SystemState& state, const dynamics::LinearSystem& system) {
   std::vector<LinearOutput> outputs;
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    if (!is_asked_for(probes[i])) continue;
+    if (!is_requested(probes[i])) continue;
     Outputs of(observed, state, system);
     for (LinearOutput& output : of.find(probes[i], observed.first_frame[i])) {
       outputs.push_back(std::move(output));

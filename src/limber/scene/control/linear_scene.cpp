@@ -60,11 +60,11 @@ void warn_of_switches(const dynamics::SystemModel& model,
     }
   }
   if (names.empty()) return;
-  warnings.push_back(fmt::format(
-      "{} can switch or rub (end stops, slack, latches, friction): the model "
-      "has them as they are at the reference, friction as a damper, and holds "
-      "only as long",
-      fmt::join(names, ", ")));
+  warnings.push_back(
+      fmt::format("{} can switch or rub (end stops, slack, latches, friction): "
+                  "the model has them as they are at the reference, friction "
+                  "as a damper, and is valid only as long",
+                  fmt::join(names, ", ")));
 }
 
 void warn_of_inputs(const dynamics::SystemModel& model,
@@ -73,13 +73,13 @@ void warn_of_inputs(const dynamics::SystemModel& model,
   for (const dynamics::LinearInput& input : system.inputs) {
     if (!input.force.isZero(0.0)) continue;
     warnings.push_back(fmt::format(
-        "input '{}' has no effect: nothing follows it, or what does is at its "
-        "limit or exerts nothing on what can move",
+        "input '{}' has no effect: nothing follows it, or its followers are at "
+        "their limits or exert nothing on a movable body",
         input.name));
   }
   for (const dynamics::BodyLoad& load : model.body_loads) {
     warnings.push_back(fmt::format(
-        "the nodal forces '{}' act as at the reference, and are no input",
+        "the nodal forces '{}' act as at the reference and are not inputs",
         load.name));
   }
 }

@@ -25,14 +25,14 @@ struct MotionRows {
   const Vector3 v = R_FW * (at_M.v_WF_W - at_F.v_WF_W);
   const Vector3 w_F = R_FW * at_F.w_WF_W;
   const Vector3 w_M = R_FW * at_M.w_WF_W;
-  const Matrix3X turn = R_FW * F.phi;
-  const Matrix3X w_change = R_FW * F.w + skew(w_F) * turn;
+  const Matrix3X rotation = R_FW * F.phi;
+  const Matrix3X w_change = R_FW * F.w + skew(w_F) * rotation;
   MotionRows rows;
-  rows.p = R_FW * (M.p - F.p) + skew(p) * turn;
+  rows.p = R_FW * (M.p - F.p) + skew(p) * rotation;
   rows.phi = R_FW * (M.phi - F.phi);
-  rows.v = R_FW * (M.v - F.v) + skew(v) * turn + skew(p) * w_change -
+  rows.v = R_FW * (M.v - F.v) + skew(v) * rotation + skew(p) * w_change -
            skew(w_F) * rows.p;
-  rows.w = R_FW * M.w + skew(w_M) * turn - w_change;
+  rows.w = R_FW * M.w + skew(w_M) * rotation - w_change;
   return rows;
 }
 

@@ -150,7 +150,7 @@ ProbedContact check_contact_probe(const ContactProbeSpec& spec,
   check_name(second, robot, scenario);
   if (first == second) {
     throw InputError(
-        fmt::format("'contact' names '{}' twice; take two bodies", first));
+        fmt::format("'contact' names '{}' twice; name two bodies", first));
   }
   for (std::size_t i = 0; i < touching.size(); ++i) {
     const std::string& A = name_of(touching[i].A, robot, scenario);
@@ -159,7 +159,7 @@ ProbedContact check_contact_probe(const ContactProbeSpec& spec,
     if (A == second && B == first) return {i, true};
   }
   throw InputError(fmt::format(
-      "no [[contact]] lets '{}' and '{}' touch; {}", first, second,
+      "no [[contact]] allows contact of '{}' and '{}'; {}", first, second,
       touching.empty()
           ? "there is none"
           : "those that may are " + list_contacts(touching, robot, scenario)));

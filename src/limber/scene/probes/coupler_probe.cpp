@@ -95,8 +95,8 @@ Vector3 find_vector(const CouplerProbeSpec& spec,
   return on_M ? moment : Vector3(-moment - motion.p_FM_F.cross(force));
 }
 
-Vector3 turn(ProbeAxes axes, const CouplerReading& reading,
-             const Vector3& vector_F) {
+Vector3 rotate(ProbeAxes axes, const CouplerReading& reading,
+               const Vector3& vector_F) {
   if (axes == ProbeAxes::M) return reading.motion.R_FM.transpose() * vector_F;
   if (axes == ProbeAxes::world) return reading.R_WF * vector_F;
   return vector_F;
@@ -227,7 +227,7 @@ void append_values(const CouplerProbe& probe,
     return;
   }
   const Vector3 value =
-      turn(probe.spec.axes, reading, find_vector(probe.spec, reading));
+      rotate(probe.spec.axes, reading, find_vector(probe.spec, reading));
   values.insert(values.end(), value.data(), value.data() + 3);
 }
 

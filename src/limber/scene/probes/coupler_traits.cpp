@@ -10,7 +10,7 @@ CouplerTraits describe_joint(const Robot& robot, const Joint& joint) {
   CouplerTraits traits{joint.name, true,
                        static_cast<int>(count_coordinates(joint.kind)), ""};
   if (merges(robot, joint)) {
-    traits.why_none = "holds two rigid links together as one body";
+    traits.why_none = "joins two rigid links into one body";
   } else if (joint.kind == joints::JointKind::floating &&
              joint.coupler.free_damping.value_or(0.0) == 0.0) {
     traits.why_none = "leaves everything free, undamped";

@@ -22,31 +22,32 @@ Motion find_modal_motion(const PointProbe& probe,
                          const dynamics::SystemState& state) {
   Motion motion;
   Vector3 udot_B = Vector3::Zero();
-  Vector3 turn_B = Vector3::Zero();
-  Vector3 turndot_B = Vector3::Zero();
+  Vector3 rotation_B = Vector3::Zero();
+  Vector3 rotation_rate_B = Vector3::Zero();
   if (body.modes > 0 && probe.Phi_B.cols() == body.modes) {
     const auto eta = state.eta.segment(body.offset, body.modes);
     const auto etadot = state.etadot.segment(body.offset, body.modes);
     motion.u_B = probe.Phi_B * eta;
     udot_B = probe.Phi_B * etadot;
-    turn_B = probe.Psi_B * eta;
-    turndot_B = probe.Psi_B * etadot;
+    rotation_B = probe.Psi_B * eta;
+    rotation_rate_B = probe.Psi_B * etadot;
     if (probe.second) {
       Matrix3X Phi = probe.Phi_B;
       Matrix3X Psi = probe.Psi_B;
       flexbody::add_slopes(*probe.second, eta.data(), Phi, Psi);
       motion.u_B = 0.5 * (motion.u_B + Phi * eta);
-      turn_B = 0.5 * (turn_B + Psi * eta);
+      rotation_B = 0.5 * (rotation_B + Psi * eta);
       udot_B = Phi * etadot;
-      turndot_B = Psi * etadot;
+      rotation_rate_B = Psi * etadot;
     }
   }
   const Matrix3 R_WB = rigid.quat_WB.toRotationMatrix();
   const Vector3 b = probe.p_B + motion.u_B;
   motion.p_W = rigid.p_WB + R_WB * b;
   motion.v_W = rigid.v_WB_W + R_WB * (rigid.w_WB_B.cross(b) + udot_B);
-  motion.R_W = R_WB * exp_rotation(turn_B);
-  motion.w_W = R_WB * (rigid.w_WB_B + left_jacobian(turn_B) * turndot_B);
+  motion.R_W = R_WB * exp_rotation(rotation_B);
+  motion.w_W =
+      R_WB * (rigid.w_WB_B + left_jacobian(rotation_B) * rotation_rate_B);
   return motion;
 }
 

@@ -13,7 +13,7 @@
 
 namespace limber::scene {
 
-/// What a run records at every output: one to six columns.
+/// A quantity that a run records at every output: one to six columns.
 struct Probe {
   std::string name;
   std::variant<PointProbe, CouplerProbe, ContactProbe, ControllerProbe,

@@ -109,14 +109,14 @@ std::set<std::size_t> find_section_rows(const ReducedBody& body,
     throw InputError(fmt::format(
         "its body lacks {} of {} places with stress, and the largest may be "
         "there; keep all rows (rows=\"boundary\", or 'limber reduce --rows "
-        "boundary'), or say where by 'group', 'node', 'nearest', ...",
+        "boundary'), or select the location by 'group', 'node', 'nearest', ...",
         sections.left_out, sections.left_out + sections.nodes.size()));
   }
   if (quantity != StressQuantity::section_force && sections.bare_beams > 0) {
     throw InputError(fmt::format(
         "{} of its beams have a section without dimensions and so no stress, "
         "and the largest may be there; give their dimensions (PBARL, PBEAML), "
-        "or say where by 'group', 'node', 'nearest', ...",
+        "or select the location by 'group', 'node', 'nearest', ...",
         sections.bare_beams));
   }
   std::set<std::size_t> rows(sections.nodes.begin(), sections.nodes.end());
@@ -185,9 +185,10 @@ void refuse_sections(StressQuantity quantity, const SectionSelection& section) {
   if (quantity == StressQuantity::section_force) what = "'section_force'";
   if (is_index(quantity)) what = "a failure index";
   if (what == nullptr) return;
-  throw InputError(fmt::format(
-      "{} is for beams and shells, and its body is of solids; leave it out",
-      what));
+  throw InputError(
+      fmt::format("{} is for beams and shells, and its body consists of "
+                  "solids; leave it out",
+                  what));
 }
 
 }  // namespace limber::scene

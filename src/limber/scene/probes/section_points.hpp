@@ -13,7 +13,7 @@
 namespace limber::scene {
 
 /// Points at the nodes of these rows, or of nodes whose faces they are, in the
-/// layer, with the strengths, that the probe asks for.
+/// layer, with the strengths, that the probe requests.
 /// @throws InputError naming what is there, if it is another
 [[nodiscard]] std::vector<Eigen::Index> select_section_points(
     const flexbody::ReducedBody& body, const std::set<std::size_t>& rows,

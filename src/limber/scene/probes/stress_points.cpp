@@ -29,12 +29,12 @@ std::set<std::size_t> find_surface(const ReducedBody& body) {
     if (modes.on_surface[i] != 0) rows.insert(modes.rows[i]);
   }
   if (rows.size() < body.mesh_boundary_nodes) {
-    throw InputError(fmt::format(
-        "its body keeps {} of the {} nodes of its surface, and the largest "
-        "stress may be at the others; keep them by rows=\"boundary\" (or "
-        "'limber reduce --rows boundary'), or say where by 'group', 'node', "
-        "'nearest', ...",
-        rows.size(), body.mesh_boundary_nodes));
+    throw InputError(
+        fmt::format("its body keeps {} of the {} nodes of its surface, and the "
+                    "largest stress may be at the others; keep them by "
+                    "rows=\"boundary\" (or 'limber reduce --rows boundary'), "
+                    "or select the location by 'group', 'node', 'nearest', ...",
+                    rows.size(), body.mesh_boundary_nodes));
   }
   return rows;
 }
@@ -147,7 +147,7 @@ bool is_in_layer_axes(StressQuantity quantity,
 bool has_stress(Fidelity level) { return level != Fidelity::rigid; }
 
 std::string explain_no_stress() {
-  return "it is rigid in this run, and a rigid link has no stress; take "
+  return "it is rigid in this run, and a rigid link has no stress; choose "
          "another level";
 }
 
@@ -177,13 +177,13 @@ bool leave_out_stress(Scenario& scenario) {
 void require_stress(const ReducedBody& body, Fidelity level) {
   if (!body.stress) {
     throw InputError(
-        "stress is asked for, but its saved body has no stress modes; make "
-        "that anew by 'limber reduce --stress'");
+        "stress is requested, but its saved body has no stress modes; reduce "
+        "it again by 'limber reduce --stress'");
   }
   if (body.stress->Sigma_B.cols() >= count_columns(body, level)) return;
   throw InputError(
-      "stress is asked for at level nonlinear, but its saved body has only "
-      "that of linear modes; make that anew by 'limber reduce --second-order "
+      "stress is requested at level nonlinear, but its saved body has only "
+      "that of linear modes; reduce it again by 'limber reduce --second-order "
       "--stress'");
 }
 
@@ -212,7 +212,7 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
     const Eigen::Index row = find_row_of(modes, point);
     p_L.col(i) = X_LB * Vector3(body.rows.x_B.col(row));
     for (Eigen::Index k = 0; k < Sigma_L.cols(); ++k) {
-      Sigma_L.block<6, 1>(6 * i, k) = flexbody::turn_stress(
+      Sigma_L.block<6, 1>(6 * i, k) = flexbody::rotate_stress(
           modes.Sigma_B.block<6, 1>(6 * point, k),
           is_in_layer ? find_section_axes(sections, point) : X_BL.R);
     }

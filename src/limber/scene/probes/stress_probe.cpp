@@ -77,7 +77,7 @@ void calc_full(const StressProbe& probe, const dynamics::SystemModel& model,
   VectorX& all = probe.scratch.stress;
   all.resize(whole.size());
   for (Eigen::Index i = 0; i < whole.cols(); ++i) {
-    all.segment<6>(6 * i) = flexbody::turn_stress(whole.col(i), R_HL);
+    all.segment<6>(6 * i) = flexbody::rotate_stress(whole.col(i), R_HL);
   }
 }
 

@@ -37,7 +37,7 @@ struct StressProbe {
   };
   StressQuantity quantity = StressQuantity::von_mises;
   dynamics::BodyIndex body;
-  bool is_of_link = false;        ///< asked for by [output], not by a probe
+  bool is_of_link = false;        ///< requested by [output], not by a probe
   std::vector<std::size_t> tags;  ///< p: Gmsh node tags of the points
   /// p, of beams and shells: "top", "ply 2 bottom", "beam 7"; else none.
   std::vector<std::string> layers;

@@ -124,7 +124,7 @@ class Parser {
            const std::string& value) {
     if (key == "name") {
       if (has_control(value)) {
-        fail(fmt::format("name '{}' holds a control character", echo(value)));
+        fail(fmt::format("name '{}' has a control character", echo(value)));
       }
       region.group = value;
     } else if (key == "rho") {

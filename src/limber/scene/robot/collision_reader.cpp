@@ -198,7 +198,7 @@ Collision read_visual(const TiXmlElement& visual, const ShapeSource& source,
   const auto* other = std::get_if<OtherGeometry>(&*geometry);
   if (other == nullptr || !other->reason.empty()) return {X_LS, *geometry};
   const std::string why =
-      fmt::format("<{}> is no shape that is known", echo(other->tag));
+      fmt::format("<{}> is not a known shape", echo(other->tag));
   return {X_LS, OtherGeometry{other->tag, problems.locate(visual.Row(), why)}};
 }
 

@@ -34,7 +34,7 @@ ConnectorEnd read_end(XmlElement& element) {
   end.where = read_place(element);
   if (element.has("rpy")) {
     (void)element.vector("rpy");
-    element.fail("'rpy' would turn nothing here; leave it out");
+    element.fail("'rpy' has no effect here; leave it out");
   }
   return end;
 }
@@ -46,11 +46,12 @@ void read_ends(XmlElement& element, TurnedEnds turned, ConnectorEnd& from,
                                                       {"to", &to}};
   std::map<std::string, int> given;
   for (const auto& [side, end] : sides) {
-    const bool turns = turned == TurnedEnds::both ||
-                       (turned == TurnedEnds::from && end == &from);
-    others[side] = [&given, side = side, end = end, turns](XmlElement& child) {
+    const bool rotates = turned == TurnedEnds::both ||
+                         (turned == TurnedEnds::from && end == &from);
+    others[side] = [&given, side = side, end = end,
+                    rotates](XmlElement& child) {
       ++given[side];
-      *end = turns ? read_turned_end(child) : read_end(child);
+      *end = rotates ? read_turned_end(child) : read_end(child);
     };
   }
   element.read_children(others);

@@ -110,11 +110,11 @@ void add_robot(const NamedRobot& source, Robot& joined) {
   append(std::move(robot.tendons), joined.tendons);
   append(std::move(robot.gears), joined.gears);
   for (const std::string& text : robot.warnings) {
-    bool is_told = false;
+    bool is_reported = false;
     for (const std::string& told : joined.warnings) {
-      is_told = is_told || told == text;
+      is_reported = is_reported || told == text;
     }
-    if (!is_told) joined.warnings.push_back(text);
+    if (!is_reported) joined.warnings.push_back(text);
   }
 }
 
@@ -140,10 +140,9 @@ Robot fix_base(Robot robot, const Pose& X_WR) {
   }
   for (const Link& link : robot.links) {
     if (link.name != "world") continue;
-    throw InputError(
-        fmt::format("{}: its link 'world' is not the root; rename "
-                    "it to fix the base",
-                    robot.file.string()));
+    throw InputError(fmt::format(
+        "{}: its link 'world' is not the root; rename the link to fix the base",
+        robot.file.string()));
   }
   Link world;
   world.name = "world";

@@ -41,7 +41,7 @@ std::optional<Vector3> project(const Vector3& moments, unsigned zero) {
 }
 
 Vector3 find_nearest_moments(const Vector3& moments) {
-  constexpr double kLeast = 1e-6;  // of the largest, as of a thin rod
+  constexpr double kLeast = 1e-6;  // of the largest, for example of a thin rod
   Vector3 best = Vector3::Zero();
   double distance = std::numeric_limits<double>::infinity();
   for (unsigned zero = 0; zero < 8; ++zero) {
@@ -87,11 +87,11 @@ void repair_inertias(Robot& robot) {
     if (!link.inertia || link.flexible) continue;
     const auto nearest = find_nearest_inertia(link.inertia->inertia);
     if (!nearest) continue;
-    robot.warnings.push_back(fmt::format(
-        "{}: link '{}': no mass has its inertia; it is repaired, in the "
-        "link's axes, from {} to {} kg m^2",
-        link.inertia->place, link.name, describe(link.inertia->inertia),
-        describe(*nearest)));
+    robot.warnings.push_back(
+        fmt::format("{}: link '{}': its inertia is physically impossible; it "
+                    "is repaired, in the link's axes, from {} to {} kg m^2",
+                    link.inertia->place, link.name,
+                    describe(link.inertia->inertia), describe(*nearest)));
     link.inertia->inertia = *nearest;
   }
 }

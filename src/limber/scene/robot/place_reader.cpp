@@ -15,7 +15,7 @@ namespace {
 
 using flexbody::NodeSelection;
 
-/// For elements and tables alike; `prefix` precedes a region's names.
+/// For both elements and tables; `prefix` precedes a region's names.
 template <typename Source>
 NodeSelection read_box(Source& source, const std::string& prefix) {
   const auto lower = source.vector(prefix + "lower");

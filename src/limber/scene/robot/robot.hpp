@@ -192,7 +192,7 @@ struct Robot {
   std::vector<Gear> gears;
   std::vector<std::string> warnings;  ///< content that is not modelled
 
-  /// Whether the root link stands for the world.
+  /// Whether the root link is the world.
   [[nodiscard]] bool has_world_root() const {
     return !links.empty() && links.front().name == "world";
   }

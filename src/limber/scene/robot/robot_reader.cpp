@@ -231,9 +231,9 @@ std::string find_problem(std::string_view attribute, std::string value) {
     std::erase_if(value,
                   [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
   }
-  return has_control(value)
-             ? "holds a control character, which no name or number has"
-             : "";
+  return has_control(value) ? "has a control character, which is not allowed "
+                              "in a name or number"
+                            : "";
 }
 
 void check_text(const TiXmlElement& root, Problems& problems) {

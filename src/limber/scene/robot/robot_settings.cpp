@@ -23,7 +23,7 @@ namespace {
 
 using Parts = std::vector<std::string>;
 
-/// Elements under <robot>, and the attribute that tells them apart.
+/// Elements under <robot>, and the attribute that distinguishes them.
 constexpr std::array<std::pair<const char*, const char*>, 11> kKinds = {{
     {"link", "name"},
     {"joint", "name"},
@@ -108,7 +108,7 @@ class Setter {
   std::string run() {
     if (parts_.size() < 4) {
       refuse(
-          fmt::format("names no value of an element; expected "
+          fmt::format("does not name a value of an element; expected "
                       "robot.KIND.NAME.ATTRIBUTE with one of the kinds {}",
                       fmt::join(list_kinds(), ", ")));
     }
@@ -182,7 +182,7 @@ class Setter {
         all));
   }
 
-  /// Whether part i is an attribute, the last one but for an index.
+  /// Whether part i is an attribute, the last one except for an index.
   [[nodiscard]] bool ends_at(std::size_t i) const {
     if (i + 1 == parts_.size()) return true;
     return i + 2 == parts_.size() && to_index(parts_.back()).has_value();
@@ -259,7 +259,7 @@ class Setter {
       refuse("is one number of several; set all of them");
     }
     if (element.Attribute(parts_[next]) == nullptr) {
-      refuse(fmt::format("removes what is not there: <{}> has no '{}'",
+      refuse(fmt::format("removes a key that does not exist: <{}> has no '{}'",
                          echo(element.ValueStr()), echo(parts_[next])));
     }
     element.RemoveAttribute(parts_[next].c_str());

@@ -159,8 +159,7 @@ class JointChecks {
       path += " -> " + names_[at];
     } while (at != start);
     fail(mimic, *joints_[start],
-         fmt::format("<mimic> goes in a circle ({}); leave one of them free",
-                     path));
+         fmt::format("<mimic> is circular ({}); leave one of them free", path));
   }
 
   Problems& problems_;

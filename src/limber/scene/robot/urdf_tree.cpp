@@ -133,11 +133,11 @@ class TreeCheck {
       if (parent_[i] == kNone) roots.push_back(names_[i]);
     }
     if (roots.size() == 1) return;
-    problems_.add(robot.Row(),
-                  fmt::format("links '{}' and '{}' have no parent; a robot has "
-                              "one root: connect them by a joint (type "
-                              "floating if nothing holds them)",
-                              roots[0], roots[1]));
+    problems_.add(
+        robot.Row(),
+        fmt::format("links '{}' and '{}' have no parent; a robot has one root: "
+                    "connect them by a joint (type floating if they are free)",
+                    roots[0], roots[1]));
   }
 
   Problems& problems_;

@@ -130,7 +130,7 @@ std::optional<ShapeName> read_shape_name(TomlTable& table) {
       continue;
     }
     const char* article = *shape == ShapeName::ellipsoid ? "an" : "a";
-    table.fail(key, fmt::format("has no meaning for {} {}; leave it out",
+    table.fail(key, fmt::format("does not apply to {} {}; leave it out",
                                 article, *table.text("shape")));
   }
   return shape;

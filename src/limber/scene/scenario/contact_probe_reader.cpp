@@ -25,14 +25,14 @@ void refuse_others(TomlTable& table) {
   }
   if (table.has("side")) {
     table.fail("side",
-               "is of couplers alone; a contact's force is that on the second "
-               "body of 'contact'");
+               "applies only to couplers; a contact's force is that on the "
+               "second body of 'contact'");
     table.skip("side");
   }
   if (table.has("frame")) {
     table.fail("frame",
-               "is of couplers alone; vectors of a contact are in the world "
-               "frame");
+               "applies only to couplers; vectors of a contact are in the "
+               "world frame");
     table.skip("frame");
   }
 }

@@ -46,7 +46,7 @@ ContactOptions merge(const ContactOptions& own,
   fill(options.rolling_friction, otherwise.rolling_friction);
   fill(options.radius, otherwise.radius);
   fill(options.stiffness, otherwise.stiffness);
-  // Both say how much energy is lost.
+  // Both determine how much energy is lost.
   if (!own.damping) fill(options.restitution, otherwise.restitution);
   if (!own.restitution) fill(options.damping, otherwise.damping);
   return options;
@@ -56,7 +56,7 @@ void check_friction(const TomlTable& table, const ContactOptions& options) {
   const double sliding = options.friction.value_or(0.0);
   if (!options.static_friction || *options.static_friction >= sliding) return;
   table.fail(fmt::format(
-      "static_friction is {}, less than friction, {}; it is at least that",
+      "static_friction is {}, less than friction, {}; expected at least that",
       *options.static_friction, sliding));
 }
 
@@ -90,9 +90,9 @@ std::vector<std::string> list_contacts(const std::vector<ContactSpec>& contacts,
 
 /// A notice of the contacts without a value, if there are any.
 template <typename Leaves>
-void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
-                  const char* key, const char* means,
-                  std::vector<std::string>& notices) {
+void report_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
+                    const char* key, const char* means,
+                    std::vector<std::string>& notices) {
   const auto numbers = list_contacts(contacts, leaves_out);
   if (numbers.empty()) return;
   notices.push_back(
@@ -102,17 +102,17 @@ void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
 }
 
 /// A notice of restitutions that no damping gives.
-void tell_least_restitution(Scenario& scenario) {
+void report_least_restitution(Scenario& scenario) {
   const auto numbers =
       list_contacts(scenario.contacts, [](const ContactOptions& o) {
         return o.restitution.value_or(1.0) < kLeastRestitution;
       });
   if (numbers.empty()) return;
-  scenario.warnings.push_back(
-      fmt::format("'restitution' of [[contact]] {} is below {}, and acts as "
-                  "that: the bodies part with {:.2g} % of their energy",
-                  fmt::join(numbers, ", "), kLeastRestitution,
-                  100.0 * kLeastRestitution * kLeastRestitution));
+  scenario.warnings.push_back(fmt::format(
+      "'restitution' of [[contact]] {} is below {} and acts as that value: the "
+      "bodies separate with {:.2g} % of their energy",
+      fmt::join(numbers, ", "), kLeastRestitution,
+      100.0 * kLeastRestitution * kLeastRestitution));
 }
 
 }  // namespace
@@ -131,15 +131,15 @@ void read_contacts(TomlTable& root, Scenario& scenario) {
     scenario.contacts.push_back(read_contact(element, otherwise));
     element.finish();
   }
-  tell_default(
+  report_default(
       scenario.contacts,
       [](const ContactOptions& o) { return !o.friction && !o.static_friction; },
       "friction", "it slides without friction (0)", scenario.warnings);
-  tell_default(
+  report_default(
       scenario.contacts,
       [](const ContactOptions& o) { return !o.restitution && !o.damping; },
       "restitution", "it loses no energy (1)", scenario.warnings);
-  tell_least_restitution(scenario);
+  report_least_restitution(scenario);
 }
 
 }  // namespace limber::scene

@@ -41,10 +41,10 @@ CouplerProbeSpec read_coupler_probe(TomlTable& table) {
       {{"F", ProbeAxes::F}, {"M", ProbeAxes::M}, {"world", ProbeAxes::world}},
       probe.axes);
   if (table.has("side") && !has_side(probe.quantity)) {
-    table.fail("side", "is of 'force' and 'moment' alone");
+    table.fail("side", "applies only to 'force' and 'moment'");
   }
   if (table.has("frame") && !is_vector(probe.quantity)) {
-    table.fail("frame", "is of vectors alone; this quantity has no axes");
+    table.fail("frame", "applies only to vectors; this quantity has no axes");
   }
   return probe;
 }

@@ -19,7 +19,8 @@ void read_target(TomlTable& table, DriveSpec& spec) {
   spec.coordinate = table.integer("coordinate", 1, joints::kMaxCoordinates)
                         .value_or(spec.coordinate);
   if (table.has("coordinate") && !spec.tendon.empty()) {
-    table.fail("coordinate", "is of a joint; a tendon has its length alone");
+    table.fail("coordinate",
+               "applies to a joint; a tendon has only its length");
   }
 }
 
@@ -27,7 +28,7 @@ void read_target(TomlTable& table, DriveSpec& spec) {
 double read_gain(TomlTable& table, const std::string& key, bool has,
                  bool needs) {
   if (table.has(key) && !has) {
-    table.fail(key, "has no meaning in this mode; leave it out");
+    table.fail(key, "does not apply in this mode; leave it out");
   }
   if (needs) return table.required_number(key, kPositive);
   return table.number(key, kNonNegative).value_or(0.0);

@@ -23,8 +23,8 @@ void check_field(const std::filesystem::path& file, const OptionalField& kept,
                  const flexbody::ReducedBody& body, const std::string& what) {
   if (file.empty()) return;
   const std::string remedy = fmt::format(
-      "Its rows may be gone, so the field must be projected when reducing: "
-      "limber reduce --initial-{} {}",
+      "The rows that it needs may not have been kept, so the field must be "
+      "projected when reducing: limber reduce --initial-{} {}",
       what, file.string());
   if (!kept) {
     throw InputError(

@@ -55,7 +55,7 @@ struct PointProbeSpec {
   Place where;
   Quantity quantity = Quantity::displacement;
   /// The motion is that in the frame of this place, in its link's axes, which
-  /// turn with it; not of `deformation`.
+  /// rotate with it; not of `deformation`.
   std::optional<Place> relative_to;
 };
 
@@ -247,7 +247,7 @@ struct Scenario {
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< deviations from the file's values
-  std::vector<std::string> notes;     ///< what a user may not expect of it
+  std::vector<std::string> notes;     ///< notices for the user
   dynamics::AdviceSettings advice;    ///< what may be neglected
 
   [[nodiscard]] dynamics::Fidelity level_of(const std::string& link) const {

@@ -111,7 +111,7 @@ StressProbeSpec read_stress_probe(TomlTable& table, StressQuantity quantity) {
     if (!table.has(key)) continue;
     table.skip(key);
     table.fail(key,
-               "is not for stress, which is that at a node, in the link's "
+               "does not apply to stress, which is at a node, in the link's "
                "axes; leave it out");
   }
   SectionSelection section;
@@ -188,7 +188,7 @@ LinkStart read_link_start(TomlTable& table,
   const toml::table* modes = table.table("modes");
   if (modes == nullptr) return start;
   if (table.has("displacement") || table.has("velocity")) {
-    table.fail("has 'modes' and nodal fields; keep one of the two ways");
+    table.fail("has 'modes' and nodal fields; give only one of the two");
   }
   TomlTable values(*modes, "initial.links modes", table.problems());
   start.eta = values.number_or_numbers("position");
@@ -221,11 +221,11 @@ void read_starts(TomlTable& table, const std::string& section,
 }
 
 void read_equilibrium(TomlTable& table, Scenario& scenario) {
-  const bool is_asked = table.boolean("equilibrium").value_or(false);
+  const bool is_requested = table.boolean("equilibrium").value_or(false);
   const auto method = read_name(table, "equilibrium_method",
                                 dynamics::EquilibriumMethod::newton,
                                 dynamics::parse_equilibrium_method);
-  if (!is_asked) {
+  if (!is_requested) {
     if (table.has("equilibrium_method")) {
       table.fail("'equilibrium_method' needs 'equilibrium = true'");
     }
@@ -339,7 +339,7 @@ void read_packages(TomlTable& table, const std::filesystem::path& folder,
         (folder / by_name.required_text(name)).lexically_normal();
     options.packages[name] = place;
     if (std::filesystem::is_directory(place)) continue;
-    by_name.fail(name, fmt::format("'{}' is no folder", place.string()));
+    by_name.fail(name, fmt::format("'{}' is not a folder", place.string()));
   }
 }
 

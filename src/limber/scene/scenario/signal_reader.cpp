@@ -27,10 +27,10 @@ Base read_ramp(TomlTable& table, const SignalContext& /*context*/) {
                                        {"trapezoid", RampShape::trapezoid},
                                        {"smooth", RampShape::smooth}},
                                       ramp.shape);
-  const Range share{0.0, 0.5, true, false};
-  ramp.rise = table.number("rise", share).value_or(ramp.rise);
+  const Range fraction{0.0, 0.5, true, false};
+  ramp.rise = table.number("rise", fraction).value_or(ramp.rise);
   if (table.has("rise") && ramp.shape != RampShape::trapezoid) {
-    table.fail("rise", "is of shape 'trapezoid' alone");
+    table.fail("rise", "applies only to shape 'trapezoid'");
   }
   return ramp;
 }

@@ -97,7 +97,7 @@ dynamics::TimeFunction read_sinusoids(Source& source) {
 }
 
 // Misfit that gives a warning, relative to the table's largest value.
-constexpr double kTellMisfit = 0.01;
+constexpr double kReportedMisfit = 0.01;
 
 dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
   dynamics::HarmonicSum sum;
@@ -133,7 +133,7 @@ dynamics::TimeFunction read_fourier(Source& source) {
     const flexbody::FourierSeries series =
         flexbody::fit_fourier_series({points.times, values}, *harmonics);
     const double largest = values.cwiseAbs().maxCoeff();
-    if (series.residual[0] > kTellMisfit * largest) {
+    if (series.residual[0] > kReportedMisfit * largest) {
       source.warnings.push_back(fmt::format(
           "{}: {} harmonics miss {:.3g} (root mean square) of the table, "
           "whose largest value is {:.3g}",

@@ -103,8 +103,8 @@ std::vector<double> read_output_times(
     const double count = interval ? end / *interval : count_steps(settings);
     if (count > kMostOutputs) {
       table.fail(
-          fmt::format("asks for {:.3g} output times, more than {:g}; "
-                      "use a longer output_interval",
+          fmt::format("requests {:.3g} output times, more than {:g}; use a "
+                      "longer output_interval",
                       count, kMostOutputs));
       return {0.0, end};
     }

@@ -147,17 +147,17 @@ struct DriveLimit {
 
 DriveLimit find_limit(const DriveSpec& drive, const Robot& robot) {
   const Driven driven = find_driven(robot, drive.joint).value_or(Driven{});
-  const bool turns = has_angles_alone(driven.kind);
+  const bool rotates = has_angles_alone(driven.kind);
   const auto choose = [](double own, double of_joint) {
     return std::isinf(own) ? of_joint : own;
   };
   if (drive.drive.mode == DriveMode::effort) {
     return {choose(drive.drive.max_effort, driven.max_effort), "max_effort",
-            turns ? "N m" : "N"};
+            rotates ? "N m" : "N"};
   }
   if (drive.drive.mode == DriveMode::velocity) {
     return {choose(drive.drive.max_speed, driven.max_speed), "max_speed",
-            turns ? "rad/s" : "m/s"};
+            rotates ? "rad/s" : "m/s"};
   }
   return {};
 }

@@ -50,7 +50,7 @@ class Reader {
       const std::optional<double> value = parse_number(word);
       if (!value) {
         if (word.find('\0') != std::string_view::npos) {
-          fail("it holds a byte 0, so it is no text of numbers");
+          fail("it holds a byte 0, so it is not a text of numbers");
         }
         fail(fmt::format("value {}: '{}' is not a number, or not a finite one",
                          row.size() + 1, echo(word)));

@@ -24,7 +24,7 @@ std::string to_attribute(const toml::node& node) {
   }
   const toml::array* array = node.as_array();
   if (array == nullptr) {
-    throw InputError("has a value that is no number, text, true or false");
+    throw InputError("has a value that is not a number, text, true or false");
   }
   std::vector<std::string> entries;
   for (const toml::node& entry : *array) {

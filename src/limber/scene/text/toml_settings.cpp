@@ -169,7 +169,8 @@ class Setter {
     if (table.erase(key) > 0) return;
     std::vector<std::string> known;
     for (const auto& [name, node] : table) known.emplace_back(name.str());
-    refuse("removes what is not there: " + describe_unknown("key", key, known));
+    refuse("removes a key that does not exist: " +
+           describe_unknown("key", key, known));
   }
 
   /// Tables around the value, which no file has.

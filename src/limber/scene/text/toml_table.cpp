@@ -87,8 +87,10 @@ std::optional<std::string> TomlTable::text_of(const std::string& key,
                                               bool is_name) const {
   std::string value = *node.value<std::string>();
   if (has_control(value)) {
-    fail(key, fmt::format("'{}' holds a control character, which no name has",
-                          echo(value)));
+    fail(key,
+         fmt::format(
+             "'{}' has a control character, which is not allowed in a name",
+             echo(value)));
   } else if (is_name && value.size() > kMostNameBytes) {
     fail(key, fmt::format("'{}' is too long; a name has {} bytes at most",
                           echo(value), kMostNameBytes));

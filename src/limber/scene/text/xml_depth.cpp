@@ -60,8 +60,8 @@ void check_xml_depth(std::string_view xml, Problems& problems) {
     if (depth > kMostNestedElements) {
       const auto line = 1 + std::count(xml.begin(), xml.begin() + at, '\n');
       problems.add(static_cast<int>(line),
-                   fmt::format("elements are nested more than {} deep; does "
-                               "one before lack its end?",
+                   fmt::format("elements are nested more than {} deep; is an "
+                               "end tag missing before?",
                                kMostNestedElements));
       return;
     }

@@ -62,7 +62,7 @@ TEST(ComparisonPlan, TakesWholeMeshesOnlyWhenAsked) {
   const ComparisonPlan compared = make_plan(axes, {}, make_scene());
   EXPECT_EQ(compared.reference.level, Fidelity::full);
   EXPECT_THAT(describe_default_reference(compared),
-              HasSubstr("highest level asked for, 'full'"));
+              HasSubstr("highest level requested, 'full'"));
 }
 
 // Of the reference's cost, which has half the step.
@@ -128,9 +128,9 @@ TEST(ComparisonPlan, TakesATenthOfATolerance) {
   scene.scenario.settings.step = 2.0;  // the duration
   const ComparisonPlan plan = make_plan({}, {}, scene);
   EXPECT_FALSE(plan.reference.step);
-  EXPECT_EQ(plan.reference.tolerance_share, 0.1);
+  EXPECT_EQ(plan.reference.tolerance_fraction, 0.1);
   EXPECT_THAT(describe(plan.reference), HasSubstr("0.1 of the tolerance"));
-  for (const Choice& run : plan.runs) EXPECT_EQ(run.tolerance_share, 1.0);
+  for (const Choice& run : plan.runs) EXPECT_EQ(run.tolerance_fraction, 1.0);
   Axes steps;
   steps.steps = {1e-3};
   EXPECT_EQ(make_plan(steps, {}, scene).reference.step, 5e-4);
@@ -170,8 +170,10 @@ TEST(ComparisonPlan, RefusesAReferenceThatLeavesOutWhatARunComputes) {
   EXPECT_THAT(error_of(axes, {Fidelity::rigid, {}, {}}),
               HasSubstr("--fidelity: 'coupled' computes more"));
   axes.eigenmodes = {10};
-  EXPECT_THAT(error_of(axes, {Fidelity::coupled, 5, {}}),
-              HasSubstr("--reference-modes: 5 are fewer than a compared 10"));
+  EXPECT_THAT(
+      error_of(axes, {Fidelity::coupled, 5, {}}),
+      HasSubstr(
+          "--reference-modes: 5 are fewer than the 10 of a compared run"));
   EXPECT_THAT(error_of(axes, {Fidelity::coupled, {}, 2e-3}),
               HasSubstr("--reference-step: 0.002 s is longer"));
 }

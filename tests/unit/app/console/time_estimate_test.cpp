@@ -28,7 +28,8 @@ TEST(TimeEstimate, TellsWorkOfMoreThanAMinuteOnceAfterItsFirstSeconds) {
   TimeEstimate estimate;
   EXPECT_EQ(follow(estimate, "simulating", 600.0, 1.9), "");
   const std::string said = follow(estimate, "simulating", 600.0, 300.0);
-  EXPECT_EQ(said, "simulating: about 10 min to go, by its first 2 s");
+  EXPECT_EQ(said,
+            "simulating: about 10 min remaining, estimated from its first 2 s");
   ASSERT_TRUE(estimate.left());
   EXPECT_NEAR(*estimate.left(), 300.0, 1.0);
 }

@@ -27,7 +27,7 @@ TEST(ImbalanceOfAFinerRun, IsToldAboveOnePercentAndTwiceThatOfOnesOwn) {
 
 TEST(ImbalanceOfAFinerRun, IsToldWithItsShareSignAndTime) {
   EXPECT_THAT(*find_imbalance(make_drift(0.4), make_drift(0.0)),
-              HasSubstr("40 % of its energy are gained by t = 0.25 s"));
+              HasSubstr("40 % of its energy is gained by t = 0.25 s"));
   EXPECT_THAT(*find_imbalance(make_drift(-0.4), make_drift(0.0)),
               HasSubstr("lost"));
 }

@@ -25,7 +25,7 @@ RunSummary make_run() {
   run.steps = 1000;
   run.iterations = 2000;
   run.limits = {{"given", 1000.0, 1.0, 1e-3}};
-  run.open_share = 0.0;
+  run.unbalanced_fraction = 0.0;
   return run;
 }
 
@@ -48,7 +48,7 @@ TEST(NextSteps, QuoteNamesThatNeedIt) {
 
 TEST(NextSteps, HaveEnergyConservingOnlyWhereItWouldHelp) {
   RunSummary run = make_run();
-  run.open_share = 0.2;
+  run.unbalanced_fraction = 0.2;
   run.open_place = "body 'arm'";
   const auto conserving = HasSubstr("energy-conserving");
   EXPECT_THAT(list(run), Contains(conserving));

@@ -148,8 +148,9 @@ class ChangedRun : public ::testing::Test {
   }
 
   /// @returns the message, empty if the change has no effect
-  std::vector<std::string> expect_told(const Built& before, const Built& now,
-                                       const std::string& what) {
+  std::vector<std::string> expect_reported(const Built& before,
+                                           const Built& now,
+                                           const std::string& what) {
     auto differences = find_differences(before.manifest, now.manifest);
     if (differences.empty()) {
       silent_.push_back(what);
@@ -159,9 +160,9 @@ class ChangedRun : public ::testing::Test {
   }
 
   template <typename Build>
-  void expect_all_told(const std::string& text,
-                       const std::vector<Change>& changes,
-                       const Build& build_changed) {
+  void expect_all_reported(const std::string& text,
+                           const std::vector<Change>& changes,
+                           const Build& build_changed) {
     const Built before = build_changed(text);
     int tried = 0;
     for (const Change& change : changes) {
@@ -171,7 +172,8 @@ class ChangedRun : public ::testing::Test {
         try {
           const Built now = build_changed(changed);
           const std::size_t begin = text.rfind('\n', change.at - 30) + 1;
-          expect_told(before, now, text.substr(begin, change.at - begin) + by);
+          expect_reported(before, now,
+                          text.substr(begin, change.at - begin) + by);
         } catch (const InputError&) {
           continue;  // refused by the reader
         }
@@ -195,23 +197,26 @@ TEST_F(ChangedRun, OfTheSameFilesIsTheSameRun) {
 }
 
 TEST_F(ChangedRun, IsNamedForEveryNumberOfTheScenario) {
-  expect_all_told(kScenario, find_numbers(kScenario),
-                  [&](const std::string& t) { return build(robot_text(), t); });
+  expect_all_reported(
+      kScenario, find_numbers(kScenario),
+      [&](const std::string& t) { return build(robot_text(), t); });
   EXPECT_THAT(silent_,
               ElementsAre(HasSubstr("[advice]"), HasSubstr("checkpoint_")));
 }
 
 TEST_F(ChangedRun, IsNamedForEveryWordOfTheScenario) {
-  expect_all_told(kScenario, find_words(kScenario),
-                  [&](const std::string& t) { return build(robot_text(), t); });
+  expect_all_reported(
+      kScenario, find_words(kScenario),
+      [&](const std::string& t) { return build(robot_text(), t); });
 }
 
 TEST_F(ChangedRun, IsNamedForEveryNumberAndWordOfTheRobot) {
   std::vector<Change> changes = find_numbers(robot_text());
   const std::vector<Change> words = find_words(robot_text());
   changes.insert(changes.end(), words.begin(), words.end());
-  expect_all_told(robot_text(), changes,
-                  [&](const std::string& t) { return build(t, kScenario); });
+  expect_all_reported(robot_text(), changes, [&](const std::string& t) {
+    return build(t, kScenario);
+  });
 }
 
 TEST_F(ChangedRun, NamesTheCouplerAndItsOldAndNewStiffness) {

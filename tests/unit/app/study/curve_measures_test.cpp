@@ -89,7 +89,7 @@ TEST(SettlingTime, IsNoneOfACurveThatHasNotSettled) {
 }
 
 // The damped frequency: sqrt(1 - zeta^2) omega. Damping moves the top of the
-// spectrum by a share zeta^2, and the two sides of it overlap at 1 / T.
+// spectrum by a fraction zeta^2, and the two sides of it overlap at 1 / T.
 TEST(DominantFrequency, OfADampedOscillatorIsItsOwn) {
   for (const double hertz : {3.0, 17.3}) {
     const double zeta = 0.01;
@@ -120,10 +120,10 @@ TEST(LargestDerivative, OfASineIsItsAmplitudeByItsFrequency) {
   const double w = 5.0;
   const auto [t, x] =
       sample(0.0, 10.0, 10001, [&](double s) { return 0.3 * std::sin(w * s); });
-  const double share = (w * 1e-3) * (w * 1e-3);
-  EXPECT_NEAR(*find_largest_derivative(t, x, 1), 0.3 * w, 0.3 * w * share);
+  const double fraction = (w * 1e-3) * (w * 1e-3);
+  EXPECT_NEAR(*find_largest_derivative(t, x, 1), 0.3 * w, 0.3 * w * fraction);
   EXPECT_NEAR(*find_largest_derivative(t, x, 2), 0.3 * w * w,
-              0.3 * w * w * share);
+              0.3 * w * w * fraction);
 }
 
 }  // namespace

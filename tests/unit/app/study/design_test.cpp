@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongStudy{"SameName", "kind = 'grid'", factor("Y", "values = [1]"),
                    "name is taken"},
         WrongStudy{"Digit", "kind = 'grid'", factor("1f", "values = [1]"),
-                   "no digit first"},
+                   "does not begin with a digit"},
         WrongStudy{"SamePath", "kind = 'grid'",
                    factor("f", "values = [1]") +
                        "[[factor]]\nname = 'g'\npath = 'a.f'\nvalues = [1]\n",

@@ -55,7 +55,7 @@ TEST(StudyDistribution, HasMeanAndQuantilesOfTheRunsThatHaveAValue) {
 }
 
 // Of 2000 experiments with 40 samples each; exact: 95 % for the mean, at least
-// 95 % for the band. The standard deviation of a share of 2000 is 0.5 %.
+// 95 % for the band. The standard deviation of a fraction of 2000 is 0.5 %.
 TEST(StudyDistribution, HasIntervalsThatHoldInNineteenOfTwentyExperiments) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal(3.0, 2.0);

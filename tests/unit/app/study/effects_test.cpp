@@ -72,7 +72,7 @@ TEST(Effects, OfASobolDesignAreThoseInClosedFormOfIshigamisFunction) {
   }
 }
 
-// Shares of the variance do not know of a constant; without its mean the
+// Fractions of the variance do not know of a constant; without its mean the
 // response is the same to roundoff, 1e-16 of 1e6.
 TEST(Effects, AreTheSameOfAResponseFarFromZero) {
   const Effects near =
@@ -112,9 +112,9 @@ TEST(Effects, AreNotToldOfTooFewSamples) {
     const Effects effects = find(done);
     for (std::size_t f = 0; f < 3; ++f) {
       if (!effects[f][0]) continue;
-      EXPECT_THAT(
-          describe_doubt(done.study, *effects[f][0]),
-          HasSubstr("cannot tell with " + std::to_string(samples) + " samples"))
+      EXPECT_THAT(describe_doubt(done.study, *effects[f][0]),
+                  HasSubstr("not significant with " + std::to_string(samples) +
+                            " samples"))
           << f;
       EXPECT_GE(*effects[f][0]->samples_needed, 32U);
     }
@@ -169,7 +169,7 @@ TEST(Correlations, OfNormalQuantitiesHaveTheirClosedForms) {
       inside += b.low <= rank && rank <= b.high ? 1 : 0;
     }
   }
-  EXPECT_NEAR(inside / 800.0, 0.95, 0.025);  // deviation of a share: 0.8 %
+  EXPECT_NEAR(inside / 800.0, 0.95, 0.025);  // deviation of a fraction: 0.8 %
 }
 
 TEST(Correlations, OfRanksAreOneForAnyMonotonicLaw) {
@@ -181,12 +181,12 @@ TEST(Correlations, OfRanksAreOneForAnyMonotonicLaw) {
   const auto rising = correlate([](const Values& x) { return std::exp(x[0]); });
   EXPECT_DOUBLE_EQ(rising.rank, 1.0);
   EXPECT_LT(rising.linear, 0.9);
-  EXPECT_TRUE(rising.is_told());
+  EXPECT_TRUE(rising.is_significant());
   EXPECT_DOUBLE_EQ(
       correlate([](const Values& x) { return -x[0] * x[0] * x[0]; }).rank,
       -1.0);
   const auto even = correlate([](const Values& x) { return x[0] * x[0]; });
-  EXPECT_FALSE(even.is_told());
+  EXPECT_FALSE(even.is_significant());
 }
 
 // Ranks 0, 1.5, 1.5, 3 and 0.5, 0.5, 2, 3: covariance 3.75, variances 4.5 each.

@@ -35,7 +35,7 @@ TEST(HelperProgram, ThatIsNowhereIsNamedWithThePlaces) {
   } catch (const InputError& error) {
     EXPECT_THAT(
         error.what(),
-        AllOf(HasSubstr("the painter 'limber-paint' is not there"),
+        AllOf(HasSubstr("the painter 'limber-paint' was not found"),
               HasSubstr((own_folder() / "limber-paint").string()),
               HasSubstr("/libexec/limber/limber-paint"), HasSubstr("Paint.")));
   }

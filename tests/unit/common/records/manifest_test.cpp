@@ -93,7 +93,7 @@ TEST(Manifest, TellsThatAnOrderHasChanged) {
   System changed = make_system();
   std::swap(changed[0], changed[1]);
   EXPECT_THAT(compare_with(changed),
-              ElementsAre("another order of the same things"));
+              ElementsAre("the same entries in another order"));
 }
 
 TEST(Manifest, KeepsNamesApartWhateverIsInThem) {

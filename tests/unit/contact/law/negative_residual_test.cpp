@@ -40,12 +40,13 @@ TEST(NegativeResidual, TheForceOfADepthIsRightToRoundoffWithinTheCubic) {
   for (const HertzLaw& law : make_laws()) {
     const auto& p = law.parameters();
     const double end = find_depth_limit(law);
-    for (double share = 1e-9; share < 1.0; share *= 1.9) {
-      const long double f = law.evaluate(share * end).force;
+    for (double fraction = 1e-9; fraction < 1.0; fraction *= 1.9) {
+      const long double f = law.evaluate(fraction * end).force;
       const long double depth =
           std::pow(f / p.stiffness, 2.0L / 3.0L) + p.residual * f;
       worst = std::max(
-          worst, std::abs(static_cast<double>(depth / (share * end) - 1.0L)));
+          worst,
+          std::abs(static_cast<double>(depth / (fraction * end) - 1.0L)));
     }
   }
   EXPECT_LE(worst, 16.0 * kEps);
@@ -54,8 +55,8 @@ TEST(NegativeResidual, TheForceOfADepthIsRightToRoundoffWithinTheCubic) {
 TEST(NegativeResidual, IsStifferThanHertzAlone) {
   for (const HertzLaw& law : make_laws()) {
     const HertzLaw hertz({.stiffness = law.parameters().stiffness});
-    for (const double share : {1e-3, 0.1, 0.9, 2.0}) {
-      const double d = share * find_depth_limit(law);
+    for (const double fraction : {1e-3, 0.1, 0.9, 2.0}) {
+      const double d = fraction * find_depth_limit(law);
       EXPECT_GT(law.evaluate(d).force, hertz.evaluate(d).force);
     }
   }
@@ -64,8 +65,8 @@ TEST(NegativeResidual, IsStifferThanHertzAlone) {
 TEST(NegativeResidual, TheForceIsTheEnergysDerivativeThroughTheCubicsEnd) {
   for (const HertzLaw& law : make_laws()) {
     const double end = find_depth_limit(law);
-    for (const double share : {0.01, 0.5, 0.97, 1.03, 2.0, 50.0}) {
-      const double d = share * end;
+    for (const double fraction : {0.01, 0.5, 0.97, 1.03, 2.0, 50.0}) {
+      const double d = fraction * end;
       const auto energy = [&](double x) {
         return law.evaluate(d * (1.0 + x)).energy();
       };
@@ -87,11 +88,12 @@ TEST(NegativeResidual, TheForceIsTheEnergysDerivativeThroughTheCubicsEnd) {
 
 TEST(NegativeResidual, AnEnergyGivesTheStateThatStoresIt) {
   for (const HertzLaw& law : make_laws()) {
-    for (const double share : {1e-9, 1e-3, 0.5, 0.99, 1.01, 3.0, 1e3}) {
-      const HertzLaw::Response at = law.evaluate(share * find_depth_limit(law));
+    for (const double fraction : {1e-9, 1e-3, 0.5, 0.99, 1.01, 3.0, 1e3}) {
+      const HertzLaw::Response at =
+          law.evaluate(fraction * find_depth_limit(law));
       const HertzLaw::Response back = law.find_state_of_energy(at.energy());
-      EXPECT_NEAR(back.force / at.force, 1.0, 1e-12) << share;
-      EXPECT_NEAR(back.energy() / at.energy(), 1.0, 1e-13) << share;
+      EXPECT_NEAR(back.force / at.force, 1.0, 1e-12) << fraction;
+      EXPECT_NEAR(back.energy() / at.energy(), 1.0, 1e-13) << fraction;
     }
   }
 }

@@ -66,7 +66,7 @@ template <typename Energy>
 
 /// Expects of a pair and of its bodies in the other order one patch.
 /// @param place by which the centre may differ [m]
-/// @param hessian share by which the Hessian may differ
+/// @param hessian fraction by which the Hessian may differ
 inline void expect_same_patch(const Patch& one, const Patch& other,
                               double place, double hessian) {
   EXPECT_NEAR(other.energy / one.energy, 1.0, 1e-9);

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
 namespace limber::contact::shape_properties_test {
@@ -27,11 +27,11 @@ void expect_refused(const Shape& shape, const std::string& words) {
   }
 }
 
-std::shared_ptr<const Skin> make_skin() {
+std::shared_ptr<const MeshSurface> make_mesh_surface() {
   auto surface = test::make_ball_surface(0.8, 0, true);
   test::set_modes(surface, test::make_fields());
   surface.residual.setConstant(2e-9);
-  return std::make_shared<const Skin>(surface);
+  return std::make_shared<const MeshSurface>(surface);
 }
 
 TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
@@ -46,15 +46,16 @@ TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
                  "ellipsoid's radius [m] is -1");
   expect_refused({Cylinder{1.0, -2.0}, {}}, "cylinder's half length");
   expect_refused({Box{{1.0, 0.0, 1.0}}, {}}, "box's half size [m] is 0");
-  expect_refused({std::shared_ptr<const Skin>(), {}}, "skin is missing");
+  expect_refused({std::shared_ptr<const MeshSurface>(), {}},
+                 "surface is missing");
   expect_refused({HalfSpace{}, {2.0 * Matrix3::Identity(), Vector3::Zero()}},
                  "pose of its half space");
   expect_refused({HalfSpace{}, {-Matrix3::Identity(), Vector3::Zero()}},
                  "pose of its half space");
   expect_refused({Sphere{1.0}, {Matrix3::Identity(), Vector3(0, 0, kInf)}},
                  "pose of its sphere");
-  expect_refused({make_skin(), {Matrix3::Identity(), Vector3(0, 0, 1)}},
-                 "skin has a pose of its own");
+  expect_refused({make_mesh_surface(), {Matrix3::Identity(), Vector3(0, 0, 1)}},
+                 "surface has its own pose");
 }
 
 TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {
@@ -73,7 +74,7 @@ TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {
 
 TEST(ShapeProperties, KindsHaveNames) {
   EXPECT_EQ(name_kind({HalfSpace{}, {}}), "half space");
-  EXPECT_EQ(name_kind({make_skin(), {}}), "skin");
+  EXPECT_EQ(name_kind({make_mesh_surface(), {}}), "skin");
 }
 
 }  // namespace

@@ -195,7 +195,8 @@ Matrix3 draw_rotation(std::mt19937& random) {
   return exp_rotation(draw_point(random, 3.0));
 }
 
-Skin::NearestPoint find_nearest_of_box(const Vector3& h, const Vector3& p) {
+MeshSurface::NearestPoint find_nearest_of_box(const Vector3& h,
+                                              const Vector3& p) {
   const Vector3 beyond = p.cwiseAbs() - h;
   if ((beyond.array() > 0.0).any()) {
     const Vector3 point = p.cwiseMax(-h).cwiseMin(h);

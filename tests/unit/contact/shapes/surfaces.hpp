@@ -4,7 +4,7 @@
 #include <functional>
 #include <random>
 
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 
 namespace limber::contact::test {
@@ -34,6 +34,7 @@ Vector3 draw_point(std::mt19937& random, double half_side);
 Matrix3 draw_rotation(std::mt19937& random);
 
 /// In closed form. @param h half sizes of the box, about the origin
-Skin::NearestPoint find_nearest_of_box(const Vector3& h, const Vector3& p);
+MeshSurface::NearestPoint find_nearest_of_box(const Vector3& h,
+                                              const Vector3& p);
 
 }  // namespace limber::contact::test

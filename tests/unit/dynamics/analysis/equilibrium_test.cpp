@@ -196,8 +196,8 @@ double find_limit_load() {
 }
 
 TEST(Equilibrium, OfAShallowTrussBelowItsLimitLoadIsTheClosedForm) {
-  for (const double share : {0.3, 0.9, 0.999}) {
-    const double force = share * find_limit_load();
+  for (const double fraction : {0.3, 0.9, 0.999}) {
+    const double force = fraction * find_limit_load();
     const Truss truss(force);
     const Equilibrium found = find_equilibrium(truss.model, truss.state);
     const double h = bisect(

@@ -147,7 +147,7 @@ TEST(LevelAdvice, AsksForFullWhereTheStretchRunsAhead) {
   EXPECT_NEAR(advise_at(50.0).errors.nonlinear, u, 1e-9 * u);
 }
 
-// A share of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
+// A fraction of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
 TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
   SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
@@ -176,15 +176,15 @@ TEST(LevelAdvice, AsksForMoreWhereInterfacesTurn) {
   const SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
   BodyPeaks peaks = bend(model);
-  peaks.turn.value = 0.3;
-  peaks.relative_turn.value = 0.39;
+  peaks.rotation.value = 0.3;
+  peaks.relative_rotation.value = 0.39;
   EXPECT_LE(advise(model.bodies[0], peaks, limits).level, Fidelity::coupled);
-  peaks.relative_turn.value = 0.5;
+  peaks.relative_rotation.value = 0.5;
   const LevelAdvice advice = advise(model.bodies[0], peaks, limits);
   EXPECT_EQ(advice.level, Fidelity::nonlinear);
   EXPECT_TRUE(advice.is_beyond_linear);
   EXPECT_THAT(advice.reason, HasSubstr("relative to one another by 0.5 rad"));
-  peaks.turn.value = 0.41;
+  peaks.rotation.value = 0.41;
   EXPECT_EQ(advise(model.bodies[0], peaks, limits).level, Fidelity::full);
 }
 

@@ -135,13 +135,13 @@ TEST(SampledLoop, IsUnstableBeyondTheClosedFormsPeriod) {
     for (const double kp : {50.0, 200.0}) {
       const double kd = 10.0;
       const double limit = std::min(2.0 / kd, 2.0 * kd / kp);
-      for (const double share : {0.5, 0.999, 1.001, 1.5}) {
+      for (const double fraction : {0.5, 0.999, 1.001, 1.5}) {
         SampledLoop loop(plant, {make_pid({.proportional = mass * kp,
                                            .derivative = mass * kd,
                                            .has_rate = true,
-                                           .period = share * limit})});
-        EXPECT_EQ(loop.find_instability().has_value(), share > 1.0)
-            << mass << ' ' << kp << ' ' << share;
+                                           .period = fraction * limit})});
+        EXPECT_EQ(loop.find_instability().has_value(), fraction > 1.0)
+            << mass << ' ' << kp << ' ' << fraction;
       }
     }
   }

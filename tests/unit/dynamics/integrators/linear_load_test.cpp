@@ -41,7 +41,8 @@ double find_rate(double t) { return 0.5 * kMoment / kInertia * t * t; }
 class AlphaUnderLinearLoads : public ::testing::TestWithParam<double> {};
 
 // The averaged accelerations are those of another instant, whose distance
-// changes with the step. Velocities are exact, but for what the start leaves.
+// changes with the step. Velocities are exact, except for what the start
+// leaves.
 TEST_P(AlphaUnderLinearLoads, KeepsVelocitiesExactWhenStepsChange) {
   LinearlyLoadedBody body;
   GeneralizedAlpha scheme(body.model,

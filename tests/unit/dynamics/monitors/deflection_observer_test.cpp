@@ -16,10 +16,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kStiffness = 1e4;  ///< [N/m]
-constexpr double kGive = 1e-4;      ///< [m]
+constexpr double kStiffness = 1e4;    ///< [N/m]
+constexpr double kDeflection = 1e-4;  ///< [m]
 
-/// A body with a loss factor on a joint that is displaced by kGive.
+/// A body with a loss factor on a joint that is displaced by kDeflection.
 class DampedBody : public ::testing::Test {
  protected:
   DampedBody() {
@@ -37,7 +37,7 @@ class DampedBody : public ::testing::Test {
         builder.attach_frame("end", body, {}));
     model_ = builder.build();
     state_ = make_state(model_);
-    state_.bodies[0].p_WB.x() = kGive;
+    state_.bodies[0].p_WB.x() = kDeflection;
   }
 
   SystemModel model_;
@@ -50,17 +50,18 @@ TEST_F(DampedBody, HasTheElasticEnergyOfItsMaxwellElementsToo) {
   state_.maxwell.setConstant(4e-3);
   const double elastic = calc_energy(model_, state_).elastic;
   ASSERT_GT(elastic, 1.2 * modes);
-  const double share = 0.5 * kStiffness * kGive * kGive / elastic;
-  EXPECT_THAT(find_hold_warnings(model_, state_),
+  const double fraction =
+      0.5 * kStiffness * kDeflection * kDeflection / elastic;
+  EXPECT_THAT(find_constraint_warnings(model_, state_),
               ElementsAre(HasSubstr(fmt::format(
-                  "{:.3g} % of the elastic energy", 100.0 * share))));
+                  "{:.3g} % of the elastic energy", 100.0 * fraction))));
 }
 
 TEST_F(DampedBody, GetsNoWarningOfAJointBesideMaxwellElementsThatStoreMore) {
   state_.eta[0] = 1e-6;
-  EXPECT_THAT(find_hold_warnings(model_, state_), ::testing::SizeIs(1));
+  EXPECT_THAT(find_constraint_warnings(model_, state_), ::testing::SizeIs(1));
   state_.maxwell.setConstant(0.1);
-  EXPECT_THAT(find_hold_warnings(model_, state_), IsEmpty());
+  EXPECT_THAT(find_constraint_warnings(model_, state_), IsEmpty());
 }
 
 }  // namespace

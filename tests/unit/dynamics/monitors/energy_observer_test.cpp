@@ -160,7 +160,7 @@ TEST_F(CloudLedger, GivesABodyWhatNoWorkExplains) {
   EXPECT_NEAR(drift.drift.value, expected, kRoundoff);
   EXPECT_EQ(drift.drift.time, 2.1);
   EXPECT_EQ(drift.place, "body 'cloud'");
-  EXPECT_NEAR(drift.share, expected, kRoundoff);
+  EXPECT_NEAR(drift.place_error, expected, kRoundoff);
 }
 
 // 7500 m/s more at all times: of 4 kg 1.1e8 J, whose digits end at 1e-8 J.
@@ -286,7 +286,7 @@ TEST(EnergyObserver, NamesACouplerThatGainsWhatNoPowerExplains) {
   const EnergyRecord record =
       record_stretch(masses.builder.build(), 0.0, 0.2, 0.0);
   EXPECT_EQ(record.worst.place, "coupler 'spring'");
-  EXPECT_NEAR(record.worst.share, 0.5 * 100.0 * 0.04, kRoundoff);
+  EXPECT_NEAR(record.worst.place_error, 0.5 * 100.0 * 0.04, kRoundoff);
   EXPECT_NEAR(record.coupler.value, 2.0, kRoundoff);
 }
 
@@ -299,7 +299,7 @@ TEST(EnergyObserver, GivesACouplerThePowerOfItsSpring) {
   const double rise = 0.5 * 100.0 * (0.25 - 0.01);
   const double given = 0.05 * (100.0 * 0.1 + 100.0 * 0.5) * 1.0;
   EXPECT_EQ(record.worst.place, "coupler 'spring'");
-  EXPECT_NEAR(record.worst.share, rise - given, 1e-11);
+  EXPECT_NEAR(record.worst.place_error, rise - given, 1e-11);
   const EnergyRow spring = find_spring(record);
   EXPECT_NEAR(spring.in, given + 0.1 * 4.0, 1e-12);
   EXPECT_NEAR(spring.dissipated, 0.1 * 4.0, 1e-12);
@@ -374,7 +374,7 @@ TEST(EnergyObserver, NamesATransmissionLikewise) {
   const double rise = 0.5 * 1000.0 * 0.04;
   const double given = 0.05 * (1000.0 * 0.2) * 0.5;
   EXPECT_EQ(record.worst.place, "coupler 'line'");
-  EXPECT_NEAR(record.worst.share, rise - given, 1e-10);
+  EXPECT_NEAR(record.worst.place_error, rise - given, 1e-10);
 }
 
 TEST(EnergyObserver, ExpectsTheRoundOffOfPlacesThatAStiffCouplerSees) {

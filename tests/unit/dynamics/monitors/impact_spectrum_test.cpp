@@ -48,10 +48,10 @@ TEST(ImpactSpectrum, SaysHowManyModesReachTheImpact) {
                                              {make_record(duration)});
     ASSERT_EQ(spectra.size(), 1U);  // the ball has no modes
     EXPECT_EQ(spectra[0].body, "bar");
-    EXPECT_NEAR(spectra[0].share(), duration * std::pow(16.0, power), 1e-12);
+    EXPECT_NEAR(spectra[0].fraction(), duration * std::pow(16.0, power), 1e-12);
     EXPECT_FALSE(spectra[0].is_enough());
     EXPECT_NEAR(spectra[0].needed.value_or(0), needed, 1);
-    EXPECT_THAT(describe(spectra[0]), HasSubstr("modes would answer"));
+    EXPECT_THAT(describe(spectra[0]), HasSubstr("modes would respond"));
   }
 }
 
@@ -65,9 +65,9 @@ TEST(ImpactSpectrum, JudgesTheShortestImpactOfAPair) {
   ASSERT_EQ(both.size(), 1U);
   EXPECT_EQ(both[0].duration, 1e-3);
   EXPECT_FALSE(both[0].is_enough());
-  EXPECT_THAT(describe(both[0]), Not(HasSubstr("a fifth")));
+  EXPECT_THAT(describe(both[0]), Not(HasSubstr("impulses by 20 %")));
   EXPECT_THAT(describe(find_impact_spectra(model, {make_record(5e-4)})[0]),
-              HasSubstr("a fifth"));
+              HasSubstr("impulses by 20 %"));
 }
 
 TEST(ImpactSpectrum, SaysNothingOfBodiesThatAreRigidOrDoNotTouch) {
@@ -83,7 +83,7 @@ TEST(ImpactSpectrum, DoesNotGuessFromFewModes) {
   const auto spectra =
       find_impact_spectra(make_model(1.0, 1.0, 3), {make_record(1e-3)});
   EXPECT_FALSE(spectra[0].needed);
-  EXPECT_THAT(describe(spectra[0]), Not(HasSubstr("would answer")));
+  EXPECT_THAT(describe(spectra[0]), Not(HasSubstr("would respond")));
 }
 
 }  // namespace

@@ -226,7 +226,7 @@ TEST(Peaks, OfTooManyPeriodsInClosedFormAreReportedToBeLow) {
   EXPECT_TRUE(run_in_closed_form(9e4 * period).statistics.warnings.empty());
   const ClosedRun run = run_in_closed_form(2e5 * period);
   ASSERT_EQ(run.statistics.warnings.size(), 1U);
-  EXPECT_NE(run.statistics.warnings[0].find("looked at for peaks every"),
+  EXPECT_NE(run.statistics.warnings[0].find("are sampled every"),
             std::string::npos);
 }
 

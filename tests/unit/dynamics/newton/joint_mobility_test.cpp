@@ -126,9 +126,9 @@ joints::PairMobility find(Arm& arm) {
 }
 
 void expect_near(const joints::PairMobility& found,
-                 const joints::PairMobility& right, double share) {
-  EXPECT_LT((found - right).norm(), share * right.norm()) << found << "\n\n"
-                                                          << right;
+                 const joints::PairMobility& right, double fraction) {
+  EXPECT_LT((found - right).norm(), fraction * right.norm()) << found << "\n\n"
+                                                             << right;
 }
 
 TEST(JointMobility, OfLinksOnStiffJointsIsThatOfIdealConstraints) {

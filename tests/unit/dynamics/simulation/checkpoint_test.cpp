@@ -132,7 +132,7 @@ void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
   EXPECT_EQ(a.throughput, b.throughput);
   EXPECT_EQ(a.roundoff, b.roundoff);
   EXPECT_EQ(a.worst.place, b.worst.place);
-  EXPECT_EQ(a.worst.share, b.worst.share);
+  EXPECT_EQ(a.worst.place_error, b.worst.place_error);
   ASSERT_EQ(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < a.rows.size(); ++i) {
     EXPECT_EQ(a.rows[i].name, b.rows[i].name);

@@ -141,7 +141,7 @@ TEST_F(Sampled, HiddenMemoryIsRefusedWhereARunMustBeRepeated) {
   EXPECT_NO_THROW(run_again());
   settings.passes = TolerancePasses::verified;
   EXPECT_THAT(run_again,
-              ThrowsMessage<InputError>(HasSubstr("takes several passes")));
+              ThrowsMessage<InputError>(HasSubstr("needs several passes")));
 }
 
 TEST_F(Sampled, BadControllersAreRefused) {
@@ -179,7 +179,7 @@ TEST_F(Sampled, BadControllersAreRefused) {
   builder_.add_controller(make(0.1, note(1.0)));
   expect_refused([](ControllerModel&) {}, "controller");
   expect_refused([](ControllerModel& c) { c.name = "second"; },
-                 "which controller 'controller' writes, too");
+                 "which controller 'controller' also writes");
 }
 
 TEST_F(Sampled, InputsThatAreNotThereAreRefused) {

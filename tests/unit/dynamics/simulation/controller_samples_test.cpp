@@ -115,7 +115,7 @@ TEST_F(Sampled, OnceAPassOfStepsToATolerance) {
 }
 
 TEST_F(Sampled, OnceWhereAStepIsHalved) {
-  // A spring that is too much for so few iterations, but for short steps.
+  // A spring that is too much for so few iterations, except for short steps.
   joints::PointSpring::Parameters spring;
   spring.free_length = 0.02;
   spring.stiffness = 1e4;

@@ -56,14 +56,14 @@ class OverpoweredJoint : public ::testing::Test {
 TEST_F(OverpoweredJoint, IsNamedWhereItsConstrainedAxesAreTurned) {
   // The chord 2 sin(0.3) of 0.6 rad is more than 0.5.
   EXPECT_THAT(find_cause_at(Vector3::Zero(), {0.6, 0.0, 0.0}),
-              AllOf(HasSubstr("joint 'hinge' gives way by 0.591 rad"),
+              AllOf(HasSubstr("joint 'hinge' deflects by 0.591 rad"),
                     HasSubstr("the loads are stronger than this joint")));
   EXPECT_THAT(find_cause_at(Vector3::Zero(), {0.4, 0.0, 0.0}), IsEmpty());
 }
 
 TEST_F(OverpoweredJoint, IsNamedWhereItsBodiesAreApart) {
   EXPECT_THAT(find_cause_at({0.0, 0.15, 0.0}, Vector3::Zero()),
-              AllOf(HasSubstr("joint 'hinge' gives way by 0.15 m"),
+              AllOf(HasSubstr("joint 'hinge' deflects by 0.15 m"),
                     HasSubstr("the loads are stronger than this joint")));
   EXPECT_THAT(find_cause_at({0.0, 0.05, 0.0}, Vector3::Zero()), IsEmpty());
 }
@@ -114,8 +114,8 @@ TEST_F(MostEnergy, OfABodyIsThatOfTranslationAndRotation) {
 TEST_F(MostEnergy, OfAModeIsThatOfItsDeformationAndVelocity) {
   state_.eta[1] = std::sqrt(2.0 * 0.505) / 90.0;
   state_.etadot[1] = std::sqrt(2.0 * 0.505);
-  for (const double share : {0.0, 0.5, 1.0}) {
-    move(share, 1.0 - share);
+  for (const double fraction : {0.0, 0.5, 1.0}) {
+    move(fraction, 1.0 - fraction);
     EXPECT_EQ(find(), "mode 2 (14.32 Hz) of body 'cloud'");
   }
 }

@@ -70,8 +70,8 @@ TEST(FirstStep, OfSteadyMotionIsNotLimited) {
 }
 
 // The damper stops the relative motion within 1e-5 s, and the steps resolve
-// it, however long the run is: with a share of its duration as the first step,
-// longer runs took it as an impulse.
+// it, however long the run is: with a fraction of its duration as the first
+// step, longer runs took it as an impulse.
 TEST(FirstStep, DoesNotDependOnTheDuration) {
   constexpr double kRate = 1e5;  // [1/s]
   for (const double duration : {1e-4, 1.0, 1e3}) {

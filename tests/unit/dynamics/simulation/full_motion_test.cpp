@@ -186,13 +186,13 @@ TEST_P(FullOrder, IsTheSchemesOnAModesOwnMotion) {
     const Lattice lattice({.is_clamped = is_clamped}, {}, modes);
     const SystemModel model = lattice.builder.build();
     std::vector<double> errors;
-    for (const double share : {1.0, 0.5}) {
+    for (const double fraction : {1.0, 0.5}) {
       OneMode one(model, modes - 1);
       const double end = 4.8 / one.omega;
       run(model, one.state,
           {.integrator = kind,
            .end_time = end,
-           .step = share * coarse / one.omega,
+           .step = fraction * coarse / one.omega,
            .rho_inf = 0.8,
            .newton_tolerance = 1e-13});
       const VectorX exact = std::cos(4.8) * one.phi;

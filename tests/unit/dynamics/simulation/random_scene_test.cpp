@@ -29,7 +29,7 @@ TEST_P(ClashingScene, FinishesFromVelocitiesThatDampersAllow) {
   EXPECT_EQ(outcome.kind, RandomOutcome::Kind::finished) << outcome.text;
   EXPECT_THAT(
       outcome.statistics.warnings,
-      ::testing::Contains(::testing::HasSubstr("onto what the dampers allow")));
+      ::testing::Contains(::testing::HasSubstr("to what the dampers allow")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ClashingScene,

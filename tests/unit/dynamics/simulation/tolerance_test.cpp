@@ -94,7 +94,7 @@ TEST_P(ToleranceOf, HoldsAtEveryOutputOfAnOscillator) {
 
 INSTANTIATE_TEST_SUITE_P(, ToleranceOf, ::testing::Values(1e-3, 1e-5, 1e-7));
 
-// Errors of thousands of steps add up, so that each has its share.
+// Errors of thousands of steps add up, so that each has its fraction.
 TEST(Tolerance, IsKeptInOnePassHoweverManyStepsItTakes) {
   const Oscillator o = make_oscillator();
   for (const double end : {0.3, 3.0, 30.0}) {

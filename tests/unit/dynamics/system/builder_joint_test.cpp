@@ -90,14 +90,14 @@ TEST_F(BuilderJoint, IsTheSameByATableAndAtEveryLevel) {
   builder_.add_joint("rigid", JointKind::fixed, {}, {stiff_, {}, "root"});
   const SystemModel model = builder_.build();
   for (const char* name : {"table", "rigid"}) {
-    const auto held = law(model, name).find_hold_stiffness();
-    const auto expected = law(model, "name").find_hold_stiffness();
+    const auto held = law(model, name).find_constraint_stiffness();
+    const auto expected = law(model, "name").find_constraint_stiffness();
     EXPECT_EQ(held->translational, expected->translational);
     EXPECT_EQ(held->rotational, expected->rotational);
   }
   // Two hundred times as stiff as the interface.
-  EXPECT_DOUBLE_EQ(law(model, "name").find_hold_stiffness()->translational,
-                   2e8);
+  EXPECT_DOUBLE_EQ(
+      law(model, "name").find_constraint_stiffness()->translational, 2e8);
 }
 
 TEST_F(BuilderJoint, TakesAnAxisOfAnyLengthAndWhatActsAlongIt) {
@@ -109,7 +109,8 @@ TEST_F(BuilderJoint, TakesAnAxisOfAnyLengthAndWhatActsAlongIt) {
   EXPECT_LT(
       (law(model, "j").coordinates()[0].axis - Vector3(0, 0.6, 0.8)).norm(),
       1e-15);
-  EXPECT_DOUBLE_EQ(law(model, "j").find_hold_stiffness()->translational, 7e4);
+  EXPECT_DOUBLE_EQ(law(model, "j").find_constraint_stiffness()->translational,
+                   7e4);
   EXPECT_EQ(law(model, "j").elements().size(), 1U);
 }
 

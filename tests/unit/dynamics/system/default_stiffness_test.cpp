@@ -21,7 +21,7 @@ CouplerSide make_flexible(double translation, double rotation) {
   return side;
 }
 
-/// The same side in axes turned by `turn`.
+/// The same side in axes turned by `rotation`.
 CouplerSide rotate(CouplerSide side, const Vector3& turn) {
   Matrix6 R = Matrix6::Zero();
   R.topLeftCorner<3, 3>() = exp_rotation(turn);

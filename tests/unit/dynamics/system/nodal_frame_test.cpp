@@ -41,7 +41,8 @@ class NodalFrameOf : public ::testing::TestWithParam<const char*> {
   NodalFrame make(const Vector3& origin) const {
     return make_nodal_frame(*body_, find_node_set(*body_, GetParam()), origin);
   }
-  /// x + u turned by `turn` and moved by p, of nodes deformed by `deformation`.
+  /// x + u turned by `rotation` and moved by p, of nodes deformed by
+  /// `deformation`.
   Matrix3X displace(const Matrix3& turn, const Vector3& p,
                     const Matrix3X& deformation) const {
     const Matrix3X moved = turn * (body_->x_B + deformation);
@@ -54,7 +55,7 @@ class NodalFrameOf : public ::testing::TestWithParam<const char*> {
 
 TEST_P(NodalFrameOf, FollowsARigidMotionOfAnyAngle) {
   const NodalFrame frame = make(kOrigin);
-  ASSERT_TRUE(frame.turns);
+  ASSERT_TRUE(frame.rotates);
   const Vector3 p(3.0, -1.0, 0.5);
   const Vector3 w(2.0, -1.0, 0.4);
   const Vector3 v(0.3, 0.2, -5.0);
@@ -218,7 +219,7 @@ TEST(NodalFrame, OfOneNodeDoesNotTurnIfItsBodyIsClamped) {
   const flexbody::NodeSet& set = find_node_set(*body, "node");
   const Vector3 at = body->x_B.col(set.nodes[0]);
   const NodalFrame frame = make_nodal_frame(*body, set, at);
-  EXPECT_FALSE(frame.turns);
+  EXPECT_FALSE(frame.rotates);
   const Matrix3X u = make_field(body->node_count(), 0.03, 11);
   const NodalFrameMotion motion = find_motion(frame, u, u);
   EXPECT_EQ(motion.R_HB, Matrix3::Identity());

@@ -83,7 +83,7 @@ TEST(NonlinearBody, NeedsWhatGravityDoesToItsSecondOrderIfClamped) {
   bent.body.reduced.integrals.P = Matrix3X::Zero(3, kModes);
   SystemBuilder builder;
   EXPECT_THAT(refuse([&] { add(bent, builder); }),
-              HasSubstr("what gravity does to the second order"));
+              HasSubstr("the second-order effect of gravity"));
 }
 
 TEST(NonlinearBody, HasTheElasticityOfItsTablesAlone) {
@@ -245,10 +245,10 @@ TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
     const double turn =
         Eigen::AngleAxisd(find_frame_motion(arm.model, state, arm.tip).X_WF.R)
             .angle();
-    const auto told = describe_large_turn(arm.model, state, 0);
+    const auto told = describe_large_rotation(arm.model, state, 0);
     EXPECT_EQ(told.has_value(), turn > 0.4) << turn;
     if (turn > 0.4) {
-      EXPECT_THAT(*told, HasSubstr(fmt::format("turned by {:.3g} rad", turn)));
+      EXPECT_THAT(*told, HasSubstr(fmt::format("rotated by {:.3g} rad", turn)));
     }
     ++(turn > 0.4 ? far : near);
     if (turn > 2.0) break;

@@ -139,9 +139,9 @@ TEST_F(SystemBuilderTest, RefusesANameThatIsTakenOrEmpty) {
 }
 
 TEST_F(SystemBuilderTest, RefusesAnInertiaThatNoMassHas) {
-  refuse_moments({1.0, 1.0, 3.0}, "(1, 1, 3) kg m^2, the largest more than");
-  refuse_moments({1.0, 1.0, 2.01}, "the largest more than");
-  refuse_moments({1e-12, 1e-12, 3e-12}, "the largest more than");
+  refuse_moments({1.0, 1.0, 3.0}, "(1, 1, 3) kg m^2, the largest exceeds");
+  refuse_moments({1.0, 1.0, 2.01}, "the largest exceeds");
+  refuse_moments({1e-12, 1e-12, 3e-12}, "the largest exceeds");
   refuse_moments({1.0, 1.0, -1.0}, "expected all > 0");
   refuse_moments({1.0, 1.0, 0.0}, "expected all > 0");
   for (const double bad : {kNaN, kInf}) {
@@ -155,7 +155,7 @@ TEST_F(SystemBuilderTest, RefusesAnInertiaThatNoMassHas) {
       Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).matrix();
   const Matrix3 odd =
       turn * Vector3(1.0, 1.0, 3.0).asDiagonal() * turn.transpose();
-  refuse_inertia(0.5 * (odd + odd.transpose()), "the largest more than");
+  refuse_inertia(0.5 * (odd + odd.transpose()), "the largest exceeds");
 }
 
 TEST_F(SystemBuilderTest, TakesThinRodsAndPlatesAndPrintedDigits) {

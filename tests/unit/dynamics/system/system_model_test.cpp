@@ -131,7 +131,7 @@ TEST(CheckModel, FindsEachChangeOfAGoodModel) {
        "same body"},
       {[](SystemModel& m) { m.couplers[0].name = "wrist"; }, "another coupler"},
       {[](SystemModel& m) { m.couplers[0].law = joints::Bushing({}); },
-       "no coordinate of a joint"},
+       "not a coordinate of a joint"},
       {[](SystemModel& m) {
          std::get<JointSum>(m.transmissions[0].coordinate).terms[0].factor = 0;
        },
@@ -148,15 +148,15 @@ TEST(CheckModel, FindsEachChangeOfAGoodModel) {
        },
        "acts on no body"},
       {[](SystemModel& m) { m.loads[0].function = InputFunction{.input = 0}; },
-       "an input of it is not there"},
+       "one of its inputs does not exist"},
       {[](SystemModel& m) { m.controllers.emplace_back().writes = {2}; },
-       "an input of it is not there"},
+       "one of its inputs does not exist"},
       {[](SystemModel& m) { m.controllers.emplace_back().name = "pid"; },
        "it has no law"},
       {[](SystemModel& m) {
          m.pairs.push_back({"touch", BodyIndex(7), BodyIndex(1), nullptr});
        },
-       "one of its bodies is not there"},
+       "one of its bodies does not exist"},
       {[](SystemModel& m) {
          m.pairs.push_back({"touch", BodyIndex(1), BodyIndex(1), nullptr});
        },

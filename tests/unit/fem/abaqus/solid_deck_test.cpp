@@ -287,7 +287,7 @@ TEST(SolidDeck, RefusesWhatIsWrongWithItsLine) {
       HasSubstr("no solid elements"));
   EXPECT_THAT(
       testing::find_read_error(write_file("geo.inp", "Point(1) = {0, 0, 0};")),
-      HasSubstr("does not begin as one"));
+      HasSubstr("but its content does not"));
 }
 
 TEST(SolidDeck, ReportsWhatItLeavesOut) {

@@ -69,7 +69,7 @@ TEST(Recovery, OfOtherColumnsThanTheStiffnessHasRowsIsRefused) {
 TEST(Recovery, WithoutItsPointsIsRefused) {
   const Path folder = sample_folder("superelement");
   EXPECT_THAT(find_error({{folder}, {folder / "recovery/otm.mtx"}}),
-              HasSubstr("it has 144 rows, and what they are is known of 0"));
+              HasSubstr("it has 144 rows, and the meaning of only 0 is known"));
   EXPECT_THAT(find_error({{folder}, {folder / "recovery/points.csv"}}),
               HasSubstr("no matrix of recovery rows"));
   EXPECT_THAT(find_error({{folder}, {folder / "rows.csv", folder / "K.mtx"}}),
@@ -90,7 +90,7 @@ TEST(Recovery, OfARowOfTheModelMustBeThatRow) {
               HasSubstr("row 1 recovers 2.1, which is row 7 of the matrices"));
   replace_text(own / "p.csv", "node,x,y,z,components\n2,5,1,0,1\n");
   EXPECT_THAT(find_error({{folder}, recovery}),
-              HasSubstr("point 2 is elsewhere than node 2"));
+              HasSubstr("point 2 is not at the position of node 2"));
 }
 
 TEST(SecondMoments, MustBeSixAndSumToTheMass) {

@@ -89,13 +89,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, GeometryFormat,
 TEST(MeshFileKind, AMeshFileMustBeginAsOne) {
   EXPECT_THAT(
       find_read_error(write_file("geo.msh", kBox)),
-      AllOf(HasSubstr("does not begin as one"), HasSubstr("Gmsh geometry")));
+      AllOf(HasSubstr("but its content does not"), HasSubstr("Gmsh geometry")));
   EXPECT_THAT(
       find_read_error(write_file("call.msh", "SystemCall \"touch x\";")),
-      HasSubstr("does not begin as one"));
+      HasSubstr("but its content does not"));
   EXPECT_THAT(find_read_error(write_file(
                   "blank.msh", "\n" + testing::unit_tetrahedron().str())),
-              HasSubstr("does not begin as one"));
+              HasSubstr("but its content does not"));
   EXPECT_THAT(find_read_error(write_file("empty.msh", "")), HasSubstr("empty"));
 }
 
@@ -103,7 +103,7 @@ TEST(MeshFileKind, EveryOtherFileMustBeWhatItsNameSays) {
   for (const std::string_view extension : kMeshFileExtensions) {
     if (extension == ".msh" || extension == ".geo") continue;
     EXPECT_THAT(find_read_error(write_file("x" + std::string(extension), kBox)),
-                HasSubstr("does not begin as one"))
+                HasSubstr("but its content does not"))
         << extension;
   }
   EXPECT_THAT(

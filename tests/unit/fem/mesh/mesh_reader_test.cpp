@@ -21,7 +21,7 @@ using testing::kBoxCorner;
 using testing::kBoxSize;
 using testing::write_file;
 
-/// Text of 16 digits holds a double but for its last bit.
+/// Text of 16 digits holds a double except for its last bit.
 constexpr double kPrinted = 1e-13;
 constexpr double kRoundoff = 1e-12;
 

@@ -106,7 +106,7 @@ TEST(Mesher, EndsWhatTakesTooLong) {
        {"Sleep 1000;\n", "a() = {0:1e12:1};\n",
         "For i In {1:1000000000}\n x = i;\nEndFor\n"}) {
     EXPECT_THAT(find_error(text + kBox, 1.0),
-                AllOf(HasSubstr("did not end within 1 s"),
+                AllOf(HasSubstr("did not finish within 1 s"),
                       HasSubstr("LIMBER_MESH_SECONDS")))
         << text;
   }
@@ -122,7 +122,7 @@ TEST(Mesher, EndsWhatTakesTooMuchMemory) {
 
 TEST(Mesher, SurvivesMacrosThatCallThemselves) {
   EXPECT_THAT(find_error("Macro M\n Call M;\nReturn\nCall M;\n", 5.0),
-              AnyOf(HasSubstr("did not end"), HasSubstr("signal"),
+              AnyOf(HasSubstr("did not finish"), HasSubstr("signal"),
                     HasSubstr("memory"), HasSubstr("Gmsh cannot")));
 }
 

@@ -10,7 +10,7 @@
 #include "limber/fem/mesh/node_weights.hpp"
 #include "unit/fem/meshes.hpp"
 
-/// The skin of a box, and how a load on a part of it is shared.
+/// The surface of a box, and how a load on a part of it is shared.
 namespace limber::fem::boundary_test {
 namespace {
 
@@ -29,9 +29,10 @@ std::vector<int> nodes_in_box(const Mesh& mesh, const Vector3& lower,
   return find_boundary_nodes(mesh, distance, kRoundoff).nodes;
 }
 
-class BoxSkin : public ::testing::TestWithParam<std::tuple<std::string, int>> {
+class BoxMeshSurface
+    : public ::testing::TestWithParam<std::tuple<std::string, int>> {
  protected:
-  BoxSkin()
+  BoxMeshSurface()
       : mesh_(read_mesh(testing::convert(
             source(), "box.msh", {.order = std::get<1>(GetParam())}))) {}
 
@@ -48,7 +49,7 @@ class BoxSkin : public ::testing::TestWithParam<std::tuple<std::string, int>> {
   Mesh mesh_;
 };
 
-TEST_P(BoxSkin, NodesAreThoseOnTheBoxsFaces) {
+TEST_P(BoxMeshSurface, NodesAreThoseOnTheBoxsFaces) {
   std::vector<int> expected;
   for (int n = 0; n < static_cast<int>(mesh_.node_count()); ++n) {
     const Vector3 d = mesh_.x.col(n) - kBoxCorner;
@@ -60,7 +61,7 @@ TEST_P(BoxSkin, NodesAreThoseOnTheBoxsFaces) {
 }
 
 /// By the divergence theorem: closed, outward, nothing twice.
-TEST_P(BoxSkin, TrianglesEncloseTheBoxsVolume) {
+TEST_P(BoxMeshSurface, TrianglesEncloseTheBoxsVolume) {
   double volume = 0.0;
   double area = 0.0;
   for (const auto& t : boundary_triangles(mesh_)) {
@@ -78,7 +79,7 @@ TEST_P(BoxSkin, TrianglesEncloseTheBoxsVolume) {
 
 /// int N_n dA reproduces the area's centre exactly, int N_n (x - p) dA its
 /// second moments, and both the means of a linear field.
-TEST_P(BoxSkin, LoadOnAFaceHasTheFacesCentreAndMoments) {
+TEST_P(BoxMeshSurface, LoadOnAFaceHasTheFacesCentreAndMoments) {
   const Vector3 upper = kBoxCorner + Vector3(0, kBoxSize[1], kBoxSize[2]);
   const WeightedNodes face =
       weigh_boundary(mesh_, nodes_in_box(mesh_, kBoxCorner, upper));
@@ -95,7 +96,7 @@ TEST_P(BoxSkin, LoadOnAFaceHasTheFacesCentreAndMoments) {
   EXPECT_LT(face.moments.rowwise().sum().norm(), kRoundoff);
 }
 
-TEST_P(BoxSkin, LoadOnTheVolumeGroupHasTheBoxsCentreAndMoments) {
+TEST_P(BoxMeshSurface, LoadOnTheVolumeGroupHasTheBoxsCentreAndMoments) {
   const WeightedNodes body =
       weigh_group(mesh_, mesh_.groups[find_group(mesh_, "body")]);
   const Matrix3X x = mesh_.x(Eigen::all, body.nodes);
@@ -109,7 +110,7 @@ TEST_P(BoxSkin, LoadOnTheVolumeGroupHasTheBoxsCentreAndMoments) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Shapes, BoxSkin,
+    Shapes, BoxMeshSurface,
     ::testing::Combine(::testing::Values("tetrahedra", "hexahedra", "prisms",
                                          "mixed"),
                        ::testing::Values(1, 2, 3)),

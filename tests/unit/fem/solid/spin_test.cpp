@@ -8,7 +8,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/assembly.hpp"
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// Against dense solutions of the same equations.
@@ -100,14 +100,15 @@ TEST_P(SpunBox, DeformationIsThatOfADenseSolver) {
   VectorX F(box_.matrices.dof_count());
   for (Eigen::Index i = 0; i < F.size(); ++i)
     F[i] = std::sin(1.7 * static_cast<double>(i));
-  for (const double share : {0.0, 0.3, 0.9, 0.999}) {
-    const double speed = share * dense_critical_speed();
+  for (const double fraction : {0.0, 0.3, 0.9, 0.999}) {
+    const double speed = fraction * dense_critical_speed();
     const MatrixX A = K_ - speed * speed * ME_;
     const VectorX expected = V_ * dense::solve(A, VectorX(V_.transpose() * F));
     const VectorX found = solve_spun(inverse_, axis_, speed, F);
     // What the softening leaves of the lowest stiffness is lost in digits.
-    const double tolerance = kRoundoff / (1.0 - share * share);
-    EXPECT_LT((found - expected).norm(), tolerance * expected.norm()) << share;
+    const double tolerance = kRoundoff / (1.0 - fraction * fraction);
+    EXPECT_LT((found - expected).norm(), tolerance * expected.norm())
+        << fraction;
   }
 }
 
@@ -118,30 +119,30 @@ TEST_P(SpunBox, NoDeformationIsFoundAboveTheCriticalSpeed) {
       NumericalError);
 }
 
-class SkinOf : public ::testing::TestWithParam<BoxKind> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, SkinOf,
+class SurfaceMatrixOf : public ::testing::TestWithParam<BoxKind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, SurfaceMatrixOf,
                          ::testing::Values(BoxKind::tetrahedra,
                                            BoxKind::hexahedra,
                                            BoxKind::prisms));
 
-TEST_P(SkinOf, ABoxHasItsAreaAndItsMoments) {
+TEST_P(SurfaceMatrixOf, ABoxHasItsAreaAndItsMoments) {
   for (const int order : {1, 2}) {
     const Mesh mesh = read_mesh(
         testing::convert(
             testing::write_file("box.geo", testing::box_geo(GetParam())),
             "box.msh", {.order = order}),
         {});
-    const MatrixX skin = assemble_skin(mesh);
+    const MatrixX mesh_surface = assemble_surface_matrix(mesh);
     const Vector3& s = testing::kBoxSize;
     const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-    EXPECT_NEAR(skin.sum(), area, 1e-12 * area);
+    EXPECT_NEAR(mesh_surface.sum(), area, 1e-12 * area);
     const VectorX x = mesh.x.row(0).transpose().array() -
                       (testing::kBoxCorner[0] + 0.5 * s[0]);
     // Two faces at x = a/2 and four strips: 2 bc a^2/4 + 2 (b + c) a^3/12.
     const double moment =
         s[0] * s[0] * (0.5 * s[1] * s[2] + s[0] * (s[1] + s[2]) / 6.0);
-    EXPECT_NEAR(x.dot(skin * x), moment, 1e-12 * moment);
-    EXPECT_NEAR((skin * x).sum(), 0.0, 1e-12 * area);
+    EXPECT_NEAR(x.dot(mesh_surface * x), moment, 1e-12 * moment);
+    EXPECT_NEAR((mesh_surface * x).sum(), 0.0, 1e-12 * area);
   }
 }
 

@@ -24,11 +24,11 @@ Vector6 hooke(const ElasticMaterial& material, const Matrix3& H) {
   const double E = material.youngs_modulus;
   const double nu = material.poisson_ratio;
   const Matrix3 e = 0.5 * (H + H.transpose());
-  const double share = E / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  const double fraction = E / ((1.0 + nu) * (1.0 - 2.0 * nu));
   Vector6 s;
-  s[0] = share * ((1.0 - nu) * e(0, 0) + nu * (e(1, 1) + e(2, 2)));
-  s[1] = share * ((1.0 - nu) * e(1, 1) + nu * (e(2, 2) + e(0, 0)));
-  s[2] = share * ((1.0 - nu) * e(2, 2) + nu * (e(0, 0) + e(1, 1)));
+  s[0] = fraction * ((1.0 - nu) * e(0, 0) + nu * (e(1, 1) + e(2, 2)));
+  s[1] = fraction * ((1.0 - nu) * e(1, 1) + nu * (e(2, 2) + e(0, 0)));
+  s[2] = fraction * ((1.0 - nu) * e(2, 2) + nu * (e(0, 0) + e(1, 1)));
   s[3] = E / (1.0 + nu) * e(0, 1);
   s[4] = E / (1.0 + nu) * e(1, 2);
   s[5] = E / (1.0 + nu) * e(0, 2);

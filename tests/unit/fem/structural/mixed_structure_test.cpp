@@ -133,7 +133,7 @@ TEST(MixedStructure, ConvertsUnits) {
   }
 }
 
-/// Weights 1, 1, 1, 3: the displacement of a node has its share, and turns.
+/// Weights 1, 1, 1, 3: the displacement of a node has its fraction, and turns.
 TEST(MixedStructure, AMeanMovesByTheWeightsOfItsNodes) {
   const MatrixModel model =
       read("mean.bdf", kBlock + "RBE3,3,,11,123456,1.,123,2\n,3,6,3.,123,7\n")

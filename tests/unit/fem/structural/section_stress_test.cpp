@@ -188,7 +188,7 @@ TEST(SectionStress, OfACylinderUnderPressureIsThatOfItsHoop) {
       for (int i = 0; i <= count; ++i) {
         const Vector3 x = grid.structure.x.col(grid.node(i, j));
         f.col(grid.node(i, j)).head<2>() =
-            1e5 * 0.5 * M_PI * grid.share(i, j) * x.head<2>();
+            1e5 * 0.5 * M_PI * grid.fraction(i, j) * x.head<2>();
       }
     const Matrix6X u =
         solve_static(grid.structure, f, [](const Vector3& x, int c) {
@@ -244,7 +244,7 @@ TEST(SectionStress, OfAPlateUnderPressure) {
     Matrix6X f = Matrix6X::Zero(6, grid.structure.x.cols());
     for (int j = 0; j <= kCount; ++j)
       for (int i = 0; i <= kCount; ++i)
-        f(2, grid.node(i, j)) = -1000.0 * 0.25 * grid.share(i, j);
+        f(2, grid.node(i, j)) = -1000.0 * 0.25 * grid.fraction(i, j);
     const Matrix6X u =
         solve_static(grid.structure, f, [](const Vector3& x, int c) {
           const auto holds = [&](int axis) {

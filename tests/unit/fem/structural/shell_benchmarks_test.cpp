@@ -38,7 +38,7 @@ double deflect_roof(int n, Corners corners) {
   const double area = 25.0 * 25.0 * degrees(40.0);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
-      f(2, grid.node(i, j)) = -90.0 * area * grid.share(i, j);
+      f(2, grid.node(i, j)) = -90.0 * area * grid.fraction(i, j);
   const Matrix6X u =
       solve_static(grid.structure, f, [](const Vector3& x, int c) {
         const bool is_diaphragm = x.y() < -25.0 + kAtZero && (c == 0 || c == 2);

@@ -40,7 +40,7 @@ Sparse restrict_rows(const Sparse& A, const std::vector<int>& rows) {
 
 }  // namespace
 
-double Grid::share(int i, int j) const {
+double Grid::fraction(int i, int j) const {
   return (i % columns == 0 ? 0.5 : 1.0) * (j % rows == 0 ? 0.5 : 1.0) /
          (columns * rows);
 }

@@ -21,8 +21,8 @@ struct Grid {
 
   /// Node at u = i / columns, v = j / rows.
   [[nodiscard]] int node(int i, int j) const { return j * (columns + 1) + i; }
-  /// A node's share of what is spread over u and v, of the area 1.
-  [[nodiscard]] double share(int i, int j) const;
+  /// A node's fraction of what is spread over u and v, of the area 1.
+  [[nodiscard]] double fraction(int i, int j) const;
 };
 
 /// @param place of the node at u, v in [0, 1]

@@ -84,9 +84,9 @@ TEST(FourierSeries, OnAUniformGridIsTheDiscreteTransform) {
     double cosine = 0.0;
     double sine = 0.0;
     for (int j = 0; j < n; ++j) {
-      const double share = k == 0 ? 1.0 / n : 2.0 / n;
-      cosine += share * table.values(0, j) * std::cos(2.0 * kPi * k * j / n);
-      sine += share * table.values(0, j) * std::sin(2.0 * kPi * k * j / n);
+      const double fraction = k == 0 ? 1.0 / n : 2.0 / n;
+      cosine += fraction * table.values(0, j) * std::cos(2.0 * kPi * k * j / n);
+      sine += fraction * table.values(0, j) * std::sin(2.0 * kPi * k * j / n);
     }
     EXPECT_NEAR(series.cosine(0, k), cosine, 100.0 * kEps);
     EXPECT_NEAR(series.sine(0, k), sine, 100.0 * kEps);

@@ -256,8 +256,8 @@ TEST(ModalOscillator, TheWronskianDecaysWithTheDamping) {
 TEST(ModalOscillator, AfterAMillionPeriodsThePhaseErrorIsRoundOffOfTheAngle) {
   const double omega = 1096.0;
   const double period = 2.0 * 3.14159265358979323846 / omega;
-  for (const double share : {0.0, 0.1, 0.37, 0.8}) {
-    const double t = (1e6 + share) * period;
+  for (const double fraction : {0.0, 0.1, 0.37, 0.8}) {
+    const double t = (1e6 + fraction) * period;
     const Real angle = static_cast<Real>(omega) * t;
     const FreeResponse free =
         ModalOscillator(omega * omega, 0.0).find_free_response(t);

@@ -137,21 +137,22 @@ TEST(Participation, OfAFreeBodyIsZero) {
 }
 
 TEST(Selection, TakesTheFewestModesOrTheFirst) {
-  const VectorX shares = Eigen::Vector4d(0.3, 0.05, 0.15, 0.5);
+  const VectorX fractions = Eigen::Vector4d(0.3, 0.05, 0.15, 0.5);
   const VectorX totals = VectorX::Ones(1);
-  const ModeSelection few = select_modes(shares, totals);
+  const ModeSelection few = select_modes(fractions, totals);
   EXPECT_THAT(few.modes, ::testing::ElementsAre(0, 2, 3));
   EXPECT_NEAR(few.reached[0], 0.95, kRoundoff);
   EXPECT_TRUE(few.complete);
   const ModeSelection first =
-      select_modes(shares, totals, {0.5, SelectionOrder::given});
+      select_modes(fractions, totals, {0.5, SelectionOrder::given});
   EXPECT_THAT(first.modes, ::testing::ElementsAre(0, 1, 2));
 }
 
 TEST(Selection, IsTheUnionOfItsCases) {
-  MatrixX shares(3, 3);
-  shares << 0.95, 0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0, 0.0;
-  const ModeSelection selection = select_modes(shares, Vector3(1.0, 1.0, 0.0));
+  MatrixX fractions(3, 3);
+  fractions << 0.95, 0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0, 0.0;
+  const ModeSelection selection =
+      select_modes(fractions, Vector3(1.0, 1.0, 0.0));
   EXPECT_THAT(selection.modes, ::testing::ElementsAre(0, 2));
   EXPECT_THAT(selection.cases[0], ::testing::ElementsAre(0));
   EXPECT_THAT(selection.cases[1], ::testing::ElementsAre(2));
@@ -168,20 +169,20 @@ TEST(Selection, SaysWhenTheModesGivenDoNotReachTheThreshold) {
 
 TEST(Selection, GrowsWithTheThreshold) {
   std::mt19937 random(5);
-  const MatrixX shares = random_matrix(random, 20, 3).cwiseAbs();
-  const VectorX totals = shares.colwise().sum().transpose();
+  const MatrixX fractions = random_matrix(random, 20, 3).cwiseAbs();
+  const VectorX totals = fractions.colwise().sum().transpose();
   for (const auto order :
        {SelectionOrder::largest_first, SelectionOrder::given}) {
     std::vector<int> before;
     for (double threshold = 0.0; threshold < 1.0; threshold += 0.05) {
       const ModeSelection now =
-          select_modes(shares, totals, {threshold, order});
+          select_modes(fractions, totals, {threshold, order});
       EXPECT_TRUE(std::includes(now.modes.begin(), now.modes.end(),
                                 before.begin(), before.end()));
       EXPECT_GE(now.reached.minCoeff(), threshold - kRoundoff);
       before = now.modes;
     }
-    EXPECT_TRUE(select_modes(shares, totals, {1.0, order}).complete);
+    EXPECT_TRUE(select_modes(fractions, totals, {1.0, order}).complete);
   }
 }
 

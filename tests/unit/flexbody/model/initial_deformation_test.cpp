@@ -52,16 +52,16 @@ TEST_F(InitialField, IsDividedIntoRigidMotionModesAndRest) {
   parts[20] = 4.0;                    // neither
   const ProjectedField field = project(fields_ * parts);
   EXPECT_LT((field.eta - parts.segment<4>(6)).norm(), 1e-12);
-  EXPECT_NEAR(field.rigid_share, 3.0 / std::sqrt(34.0), 1e-12);
-  EXPECT_NEAR(field.missed_share, 4.0 / 5.0, 1e-12);
+  EXPECT_NEAR(field.rigid_fraction, 3.0 / std::sqrt(34.0), 1e-12);
+  EXPECT_NEAR(field.missed_fraction, 4.0 / 5.0, 1e-12);
 }
 
 TEST_F(InitialField, OfRigidMotionAloneMissesNothing) {
   const ProjectedField field = project(5.0 * fields_.col(1));
   EXPECT_LT(field.eta.norm(), 1e-12);
-  EXPECT_NEAR(field.rigid_share, 1.0, 1e-12);
-  EXPECT_EQ(field.missed_share, 0.0);
-  EXPECT_EQ(project(VectorX::Zero(36)).rigid_share, 0.0);
+  EXPECT_NEAR(field.rigid_fraction, 1.0, 1e-12);
+  EXPECT_EQ(field.missed_fraction, 0.0);
+  EXPECT_EQ(project(VectorX::Zero(36)).rigid_fraction, 0.0);
 }
 
 TEST_F(InitialField, HasAKeyOfItsValues) {
@@ -74,13 +74,13 @@ TEST_F(InitialField, HasAKeyOfItsValues) {
 
 TEST(LossesOfAnInitialField, AreToldFromOnePerCentOn) {
   ProjectedField field;
-  field.rigid_share = field.missed_share = 0.0099;
+  field.rigid_fraction = field.missed_fraction = 0.0099;
   EXPECT_THAT(describe_losses(field, "initial velocity"), IsEmpty());
-  field.rigid_share = 0.25;
+  field.rigid_fraction = 0.25;
   EXPECT_THAT(describe_losses(field, "initial velocity"),
               ElementsAre(AllOf(HasSubstr("25 % of the initial velocity"),
                                 HasSubstr("rigid motion"))));
-  field.missed_share = 0.125;
+  field.missed_fraction = 0.125;
   EXPECT_THAT(
       describe_losses(field, "field"),
       ElementsAre(HasSubstr("25 %"), AllOf(HasSubstr("12.5 % of the field"),

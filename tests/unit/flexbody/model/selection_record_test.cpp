@@ -13,8 +13,8 @@ using ::testing::IsEmpty;
 SelectionRecord record_of(const std::vector<double>& reached) {
   SelectionRecord record;
   record.candidates = 60;
-  for (const double share : reached)
-    record.cases.push_back({"case", {}, share, 0.25, 0.5});
+  for (const double fraction : reached)
+    record.cases.push_back({"case", {}, fraction, 0.25, 0.5});
   return record;
 }
 

@@ -16,8 +16,8 @@ constexpr int kNodes = 8;
 Matrix3X make_nodes() {
   Matrix3X x = Matrix3X::Zero(3, kNodes);
   for (int i = 0; i < kNodes; ++i) {
-    const double share = static_cast<double>(i) / (kNodes - 1);
-    x(0, i) = kLength * (share * share - 0.5);
+    const double fraction = static_cast<double>(i) / (kNodes - 1);
+    x(0, i) = kLength * (fraction * fraction - 0.5);
   }
   return x;
 }

@@ -35,14 +35,14 @@ TEST(MaxPrincipal, IsThatOfMohrsCircle) {
 TEST(TurnedStress, OfAQuarterTurnAboutZSwapsXAndY) {
   Matrix3 R_BL;  // the frame's x is the body's y
   R_BL << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const Vector6 turned = turn_stress(components(1, 2, 3, 4, 5, 6), R_BL);
+  const Vector6 turned = rotate_stress(components(1, 2, 3, 4, 5, 6), R_BL);
   EXPECT_LT((turned - components(2, 1, 3, -4, -6, 5)).norm(), 1e-15);
 }
 
 TEST(TurnedStress, KeepsItsInvariants) {
   const Vector6 stress = components(1.2, -0.7, 3.1, 0.4, -2.2, 0.9);
   const Vector6 turned =
-      turn_stress(stress, exp_rotation(Vector3(0.3, -1.1, 0.7)));
+      rotate_stress(stress, exp_rotation(Vector3(0.3, -1.1, 0.7)));
   EXPECT_NEAR(calc_von_mises(turned), calc_von_mises(stress), 1e-14);
   EXPECT_NEAR(calc_max_principal(turned), calc_max_principal(stress), 1e-14);
   EXPECT_GT((turned - stress).norm(), 0.1);

@@ -25,7 +25,7 @@ Complex find_pole(double frequency, double ratio) {
 // Duhamel's integral of unit impulses: the sum of rotating vectors.
 Complex find_response(const std::vector<Impulse>& shaper, const Complex& pole) {
   Complex sum = 0.0;
-  for (const Impulse& i : shaper) sum += i.share * std::exp(pole * i.delay);
+  for (const Impulse& i : shaper) sum += i.fraction * std::exp(pole * i.delay);
   return sum * std::exp(-pole.real() * shaper.back().delay);
 }
 
@@ -46,8 +46,8 @@ TEST(Shaper, SharesSumToOne) {
     for (const double ratio : {0.0, 0.02, 0.3, 0.99}) {
       double sum = 0.0;
       for (const Impulse& i : make_shaper(kind, kFrequency, ratio)) {
-        EXPECT_GE(i.share, 0.0);
-        sum += i.share;
+        EXPECT_GE(i.fraction, 0.0);
+        sum += i.fraction;
       }
       EXPECT_NEAR(sum, 1.0, kRoundoff);
     }
@@ -87,7 +87,8 @@ TEST(Shaper, OnlyZvdsVibrationHasNoSlopeByFrequency) {
       Complex sum = 0.0;
       for (const Impulse& i : shaper) {
         const Complex pole = find_pole(1.0, ratio);
-        sum += i.share * i.delay * pole * std::exp(kFrequency * pole * i.delay);
+        sum +=
+            i.fraction * i.delay * pole * std::exp(kFrequency * pole * i.delay);
       }
       return std::abs(sum);
     };

@@ -47,7 +47,7 @@ TEST(MatrixPart, WithASpringToGroundNamesItsNode) {
   fem::MatrixModel model = arch();
   const int at = row(5, 2);
   model.stiffness.entries.coeffRef(at, at) *= 1.0 + 1e-4;
-  EXPECT_THAT(check(model), AllOf(HasSubstr("of the whole body meets"),
+  EXPECT_THAT(check(model), AllOf(HasSubstr("of the whole body has"),
                                   HasSubstr("held at node"), HasSubstr(" 5")));
 }
 

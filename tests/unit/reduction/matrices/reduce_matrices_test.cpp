@@ -371,7 +371,7 @@ TEST(ReduceMatrices, NameSetsAndNodesThatAreMissing) {
   EXPECT_THAT(refuse([](Recipe& r) { r.clamped_groups = {"root"}; }),
               HasSubstr("unknown node set 'root'"));
   EXPECT_THAT(refuse([](Recipe& r) { r.clamped_groups = {"node:x"}; }),
-              HasSubstr("'node:x' is no node"));
+              HasSubstr("'node:x' is not a node"));
 }
 
 }  // namespace

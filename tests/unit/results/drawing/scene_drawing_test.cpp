@@ -67,13 +67,13 @@ TEST(SceneDrawing, HidesWhatIsBehind) {
   turned.shots = {{"a", {ball, wall}}};
   DrawnScene alone = with;
   alone.shots = {{"a", {wall}}};
-  EXPECT_EQ(test::find_different_share(draw(with), draw(turned)), 0.0);
-  EXPECT_EQ(test::find_different_share(draw(with), draw(alone)), 0.0);
+  EXPECT_EQ(test::find_different_fraction(draw(with), draw(turned)), 0.0);
+  EXPECT_EQ(test::find_different_fraction(draw(with), draw(alone)), 0.0);
   turned.shots = {{"a", {wall, make_box({0.5, 0.5, 0.5}, {0.0, -0.6, 0.0})}}};
   // The faces towards the eye have one colour; the top of the smaller box, 54
   // pixels wide and seen from 15 degrees above, is another.
   const double top = 54.0 * 54.0 * std::sin(15.0 * 3.14159 / 180.0);
-  EXPECT_GT(test::find_different_share(draw(turned), draw(alone)),
+  EXPECT_GT(test::find_different_fraction(draw(turned), draw(alone)),
             0.9 * top / (1200.0 * 1000.0));
 }
 
@@ -85,9 +85,9 @@ TEST(SceneDrawing, IsTheSameInOtherUnitsButForTheScale) {
          {make_box(factor * Vector3(1.0, 0.8, 0.6), Vector3::Zero())}}};
     return draw(scene);
   };
-  EXPECT_EQ(test::find_different_share(at(1.0), at(10.0)) > 0.0, true);
-  EXPECT_LT(test::find_different_share(at(1.0), at(10.0)), 1e-3);
-  EXPECT_LT(test::find_different_share(at(1.0), at(1e-3)), 1e-3);
+  EXPECT_EQ(test::find_different_fraction(at(1.0), at(10.0)) > 0.0, true);
+  EXPECT_LT(test::find_different_fraction(at(1.0), at(10.0)), 1e-3);
+  EXPECT_LT(test::find_different_fraction(at(1.0), at(1e-3)), 1e-3);
 }
 
 TEST(SceneDrawing, DrawsPlanesBelowAndNotAbove) {

@@ -142,7 +142,8 @@ TEST(BodyPlan, RefusesALinkCalledLikeAPiece) {
     (void)plan_bodies(robot,
                       {{}, {make_piece(3.0, 0.2), make_piece(4.0, 0.7)}, {}});
   });
-  EXPECT_THAT(text, ::testing::HasSubstr("'arm.2' is called like piece 2"));
+  EXPECT_THAT(text,
+              ::testing::HasSubstr("'arm.2' has the same name as piece 2"));
 }
 
 }  // namespace

@@ -104,15 +104,15 @@ std::string overlap_with(const std::string& robot, const std::string& between,
 
 TEST(ContactAssembly, ShapesAreWhereTheirLinkIs) {
   EXPECT_THAT(overlap_with(kDumbbell, "bell", "", Vector3::Zero()),
-              HasSubstr("contact 'ball/bell.1': both overlap by 0.02 m at the "
-                        "start, at (0, 0, 0.09) m"));
+              HasSubstr("contact 'ball/bell.1': the bodies overlap by 0.02 m "
+                        "at the start, at (0, 0, 0.09) m"));
   const Vector3 rpy(0.4, -0.3, 1.1);
   const Vector3 origin(0.2, 0.5, -0.1);
   EXPECT_THAT(overlap_with(kDumbbell, "bell",
                            "[initial.base]\nposition = [0.2, 0.5, -0.1]\n"
                            "orientation_rpy = [0.4, -0.3, 1.1]\n",
                            origin + rotation_rpy(rpy) * Vector3::UnitX()),
-              HasSubstr("contact 'ball/bell.2': both overlap by 0.02 m"));
+              HasSubstr("contact 'ball/bell.2': the bodies overlap by 0.02 m"));
 }
 
 // A link without mass on a fixed joint: its shape moves with the dumbbell.
@@ -125,13 +125,13 @@ TEST(ContactAssembly, LinksOnFixedJointsKeepTheirShapes) {
   // z of the mount is -y of the link.
   EXPECT_THAT(
       overlap_with(kDumbbell + mount, "mount", "", Vector3(0.0, 1.5, 0.0)),
-      HasSubstr("contact 'ball/mount': both overlap by 0.02 m"));
+      HasSubstr("contact 'ball/mount': the bodies overlap by 0.02 m"));
   const std::string fixed =
       "<joint name='w' type='fixed'><parent link='world'/><child link='bell'/>"
       "<origin xyz='0 0 7'/></joint>\n";
   EXPECT_THAT(overlap_with(kWorld + kDumbbell + mount + fixed, "mount", "",
                            Vector3(0.0, 1.5, 7.0)),
-              HasSubstr("contact 'ball/mount': both overlap by 0.02 m"));
+              HasSubstr("contact 'ball/mount': the bodies overlap by 0.02 m"));
 }
 
 // 3 % of R_e = 0.1 m of a sphere on a plane.
@@ -146,12 +146,12 @@ TEST(ContactAssembly, TakesSmallOverlapsForTouching) {
     });
   };
   EXPECT_EQ(build(0.0971, kOptions), "");
-  EXPECT_THAT(
-      build(0.0969, kOptions),
-      AllOf(HasSubstr("scenario.toml"), HasSubstr("both overlap by 0.0031 m"),
-            HasSubstr("up to 0.003 m is taken as touching")));
+  EXPECT_THAT(build(0.0969, kOptions),
+              AllOf(HasSubstr("scenario.toml"),
+                    HasSubstr("the bodies overlap by 0.0031 m"),
+                    HasSubstr("up to 0.003 m counts as touching")));
   EXPECT_EQ(build(0.0969, kOptions + "radius = 0.2\n"), "");
-  EXPECT_THAT(build(-1.0, kOptions), HasSubstr("both overlap by 1.1 m"));
+  EXPECT_THAT(build(-1.0, kOptions), HasSubstr("the bodies overlap by 1.1 m"));
 }
 
 // Of a cube of 2 a on a plane 1 % of a, in whatever unit.
@@ -163,16 +163,16 @@ TEST(ContactAssembly, TakesFlatOverlapsForTouchingByTheSizeOfBoth) {
         "iyy='{0}' izz='{0}' ixy='0' ixz='0' iyz='0'/></inertial><collision>"
         "<geometry><box size='{1} {1} {1}'/></geometry></collision></link>\n",
         2.0 / 3.0 * a * a, 2.0 * a);
-    const auto build = [&](double share) {
+    const auto build = [&](double fraction) {
       return input_error([&] {
-        (void)folder.build(cube, kTime + floor_at((share - 1.0) * a) +
+        (void)folder.build(cube, kTime + floor_at((fraction - 1.0) * a) +
                                      contact("cube", "floor"));
       });
     };
     EXPECT_EQ(build(0.009), "") << a;
     EXPECT_THAT(
         build(0.011),
-        HasSubstr(fmt::format("up to {:.2g} m is taken as touching", 0.01 * a)))
+        HasSubstr(fmt::format("up to {:.2g} m counts as touching", 0.01 * a)))
         << a;
   }
 }
@@ -208,7 +208,7 @@ TEST(ContactAssembly, RefusesOneShapeWithinAnother) {
                                kTime + obstacle + outer + contact(A, B, ""));
           });
           EXPECT_THAT(refused, AnyOf(HasSubstr("lies within the other"),
-                                     HasSubstr("both overlap by")))
+                                     HasSubstr("the bodies overlap by")))
               << inner << outer << x;
         }
       }
@@ -227,7 +227,7 @@ TEST(ContactAssembly, TellsTheForceOfASmallOverlap) {
       4.0 / 3.0 * modulus * std::sqrt(0.1) * std::pow(1e-6, 1.5);
   ASSERT_EQ(built.warnings.size(), 1U);
   EXPECT_THAT(built.warnings[0],
-              AllOf(HasSubstr("both overlap by 1e-06 m"),
+              AllOf(HasSubstr("the bodies overlap by 1e-06 m"),
                     HasSubstr(fmt::format("with {:.4g} N", force))));
 }
 
@@ -362,13 +362,13 @@ TEST_F(TouchingBody, TouchesWithItsSkinOrTheSurfacesThatItNames) {
 TEST_F(TouchingBody, HasItsSurfaceWhereItsMeshIs) {
   const Vector3 above(0.0, 0.0, 0.58);
   EXPECT_THAT(error_of(above),
-              HasSubstr("contact 'body/ball': both overlap by 0.02 m"));
+              HasSubstr("contact 'body/ball': the bodies overlap by 0.02 m"));
   EXPECT_EQ(error_of(above, "<contact link='body' surface='pad'/>"), "");
   EXPECT_THAT(error_of(-above, "<contact link='body' surface='pad'/>"),
-              HasSubstr("contact 'body/ball': both overlap by 0.02 m"));
+              HasSubstr("contact 'body/ball': the bodies overlap by 0.02 m"));
 }
 
-TEST_F(TouchingBody, LosesTheModesOfItsSkinAtLevelRigid) {
+TEST_F(TouchingBody, LosesTheModesOfItsSurfaceAtLevelRigid) {
   const BuiltScene built = build(Vector3(0.0, 0.0, 2.0), "",
                                  "[fidelity]\nlinks = { body = 'rigid' }\n");
   ASSERT_EQ(built.model.pairs.size(), 1U);
@@ -405,7 +405,7 @@ TEST_F(TouchingBody, TouchesBallsAloneWithoutConvexParts) {
             HasSubstr("surface 'skin' has no convex parts")));
 }
 
-TEST_F(TouchingBody, NeedsTheSecondOrderOfItsSkinAtLevelNonlinear) {
+TEST_F(TouchingBody, NeedsTheSecondOrderOfItsSurfaceAtLevelNonlinear) {
   flexbody::QuadraticManifold manifold;
   manifold.paired = {1, 2};
   manifold.Q = MatrixX::Zero(2, 3);

@@ -109,8 +109,9 @@ TEST(CouplerAssembly, FrictionAndSpringsActOnTheirCoordinates) {
   EXPECT_EQ(element<joints::Friction>(law, 0).parameters().coulomb, 3.0);
   EXPECT_EQ(law.elements()[1].coordinate, 2);
   EXPECT_EQ(element<joints::ScalarSpring>(law, 1).parameters().rest, 0.5);
-  const auto& hold = std::get<joints::Bushing>(law.hold()).parameters();
-  EXPECT_EQ(hold.translational_damping(0, 0), 7.0);  // <dynamics> stays
+  const auto& constraint =
+      std::get<joints::Bushing>(law.constraint()).parameters();
+  EXPECT_EQ(constraint.translational_damping(0, 0), 7.0);  // <dynamics> stays
 }
 
 TEST(CouplerAssembly, UniversalAndBallJointsTakeTheirAxes) {
@@ -121,14 +122,15 @@ TEST(CouplerAssembly, UniversalAndBallJointsTakeTheirAxes) {
                        "second_axis='0 1 0'/><coupler joint='k' kind='ball'/>",
                    kTime);
   const joints::Joint& universal = joint_law(built.model, "j");
-  const auto& hold = std::get<joints::UniversalHold>(universal.hold());
-  EXPECT_EQ(hold.parameters().axis_F, Vector3::UnitZ());
-  EXPECT_EQ(hold.parameters().axis_M, Vector3::UnitY());
-  EXPECT_NEAR(hold.parameters().translational_stiffness, 2.0 * kUnitStiffness,
-              1e-9 * kUnitStiffness);
+  const auto& constraint =
+      std::get<joints::UniversalConstraint>(universal.constraint());
+  EXPECT_EQ(constraint.parameters().axis_F, Vector3::UnitZ());
+  EXPECT_EQ(constraint.parameters().axis_M, Vector3::UnitY());
+  EXPECT_NEAR(constraint.parameters().translational_stiffness,
+              2.0 * kUnitStiffness, 1e-9 * kUnitStiffness);
   const joints::Joint& ball = joint_law(built.model, "k");
   EXPECT_EQ(ball.coordinates().size(), 3U);
-  const auto& held = std::get<joints::Bushing>(ball.hold()).parameters();
+  const auto& held = std::get<joints::Bushing>(ball.constraint()).parameters();
   EXPECT_TRUE(held.rotational_stiffness.isZero());
 }
 

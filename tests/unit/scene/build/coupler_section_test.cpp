@@ -221,7 +221,7 @@ TEST_F(CouplerSection, RefusesWhatIsNoCoupler) {
               HasSubstr("'A.shoulder' is given twice"));
   EXPECT_THAT(error_of("type = 'gear'\nname = 'g'\njoint = 'A.shoulder'\nwith "
                        "= 'A'\nratio = 1979-05-27\n"),
-              HasSubstr("has a value that is no number"));
+              HasSubstr("has a value that is not a number"));
   EXPECT_THAT(input_error([&] {
                 (void)load_two("coupler = 3\n" + time_table(1, 1e-2));
               }),

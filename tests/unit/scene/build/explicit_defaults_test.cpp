@@ -56,7 +56,7 @@ TEST(ExplicitDefaults, AreTheFrequencyInTheNoteWithEveryExplicitScheme) {
     const double frequency = is_implicit ? 20000.0 : 1000.0;
     const double omega = 2.0 * std::numbers::pi * frequency;
     const auto held =
-        joints::find_hold_stiffness(built.model.couplers.front().law);
+        joints::find_constraint_stiffness(built.model.couplers.front().law);
     ASSERT_TRUE(held.has_value());
     EXPECT_NEAR(held->translational / (2.0 * omega * omega), 1.0, 1e-12)
         << name;

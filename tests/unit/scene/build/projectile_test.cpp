@@ -117,13 +117,14 @@ TEST(Projectile, NeedsANameOfItsOwn) {
       "[[obstacle]]\nname = 'ball'\nshape = 'sphere'\nradius = 1.0\nposition = "
       "[9.0, 0.0, 0.0]\n";
   EXPECT_THAT(error_of(kBall + wall),
-              HasSubstr("obstacle 'ball' is called like another link, "
+              HasSubstr("obstacle 'ball' has the same name as another link, "
                         "robot, projectile or obstacle; rename it"));
   for (const char* name : {"base", "world"}) {
     EXPECT_THAT(error_of("[[projectile]]\nname = '" + std::string(name) +
                          "'\nradius = 0.5\nmass = 2.0\nposition = [1.0, 2.0, "
                          "3.0]\n"),
-                HasSubstr("projectile '" + std::string(name) + "' is called"));
+                HasSubstr("projectile '" + std::string(name) +
+                          "' has the same name as"));
   }
 }
 

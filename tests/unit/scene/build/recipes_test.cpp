@@ -109,10 +109,9 @@ TEST(Recipes, RefuseAnInterfaceNamedLikeAnotherSelection) {
       {"group:root", flexbody::GroupNodes{"tip"}});
   Scenario scenario = push_tip(dynamics::LoadFrame::body);
   scenario.loads[0].where = {"arm", "", flexbody::GroupNodes{"root"}, {}};
-  EXPECT_THAT(
-      test::input_error([&] { (void)make_recipe(robot, 0, scenario); }),
-      ::testing::HasSubstr("interface 'group:root' is called like another "
-                           "selection, the group 'root'"));
+  EXPECT_THAT(test::input_error([&] { (void)make_recipe(robot, 0, scenario); }),
+              ::testing::HasSubstr("interface 'group:root' has the same name "
+                                   "as another selection, the group 'root'"));
 }
 
 // Every end of a coupler bends the link there, a point of a tendon too.

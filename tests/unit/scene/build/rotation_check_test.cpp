@@ -74,12 +74,11 @@ TEST(RotationCheck, GivesTheNodesTheDirectionAndTheRemedy) {
   for (const Matrix3& required :
        {required_by(JointKind::revolute, kX), required_by(JointKind::fixed, kX),
         required_by(JointKind::prismatic, kZ), Matrix3(kZ * kZ.transpose())}) {
-    EXPECT_EQ(
-        error_of(make_line(), required),
-        "interface 'edge': its 3 nodes are on one line along (0, 0, 1), "
-        "so it has no rotation about (0, 0, 1) (mesh axes), which is "
-        "required. Take nodes that span a surface, or require no rotation "
-        "about that direction");
+    EXPECT_EQ(error_of(make_line(), required),
+              "interface 'edge': its 3 nodes are on one line along (0, 0, 1), "
+              "so it has no rotation about (0, 0, 1) (mesh axes), which is "
+              "required. Choose nodes that span a surface, or require no "
+              "rotation about that direction");
   }
 }
 
@@ -287,7 +286,7 @@ TEST_F(BodyWithALine, TakesMomentsAboutItsDefinedDirectionsAlone) {
             HasSubstr("(0, 0, 1)")));
   EXPECT_THAT(place_error(load("interface = 'edge'\nmoment = [1.0, 0.0, 0.0]\n"
                                "frame = 'world'")),
-              HasSubstr("its moment is fixed in the world, so it comes about "
+              HasSubstr("its moment is fixed in the world, so it acts about "
                         "every direction"));
   EXPECT_THAT(
       place_error(load("interface = 'corner'\nmoment = [0.0, 1.0, 0.0]")),

@@ -223,7 +223,7 @@ TEST_F(Robots, AreRefusedIfTheyAreNotClear) {
        "did you mean 'a.body'"},
       {two + "[[projectile]]\nname = 'a'\nradius = 1.0\nmass = 1.0\nposition = "
              "[9.0, 9.0, 9.0]\n",
-       "projectile 'a' is called like another link, robot"},
+       "projectile 'a' has the same name as another link, robot"},
   };
   for (const auto& [text, problem] : wrong) {
     EXPECT_THAT(error_of(text), HasSubstr(problem)) << text;

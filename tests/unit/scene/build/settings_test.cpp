@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"NotFinite", {"load.push.force.0=nan"}, "nan"},
         Refused{"EmptyPart", {"time..step=1"}, "empty part"},
         Refused{"OpenQuote", {"load.\"push=1\".force=1"}, ""},
-        Refused{"RobotAlone", {"robot.joint=1"}, "names no value"},
+        Refused{"RobotAlone", {"robot.joint=1"}, "does not name a value"},
         Refused{"RobotKind",
                 {"robot.jiont.hinge.type=fixed"},
                 "did you mean 'joint'?"},

@@ -64,10 +64,11 @@ TEST(UnusedContactKeys, AreObstaclesThatNothingTouches) {
 }
 
 TEST(UnusedContactKeys, AreContactsThatOthersDecide) {
-  EXPECT_THAT(warnings_of("[[contact]]\nbetween = ['*', 'b']\n" + kOptions +
-                          "[[contact]]\nbetween = ['a', 'b']\n" + kOptions),
-              ElementsAre(HasSubstr("[[contact]] 1 changes nothing: others "
-                                    "decide all its pairs")));
+  EXPECT_THAT(
+      warnings_of("[[contact]]\nbetween = ['*', 'b']\n" + kOptions +
+                  "[[contact]]\nbetween = ['a', 'b']\n" + kOptions),
+      ElementsAre(HasSubstr("[[contact]] 1 changes nothing: other [[contact]] "
+                            "tables take precedence for all its pairs")));
 }
 
 }  // namespace

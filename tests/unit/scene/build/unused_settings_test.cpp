@@ -90,7 +90,7 @@ TEST_F(SettingOfARobot, ThatACouplerReplacesIsTold) {
   expect_unused("robot.joint.extended.limit.lower=-0.5",
                 "the <stop> of its <coupler> has its own");
   expect_unused("robot.joint.extended.dynamics.friction=0.5",
-                "the <friction> of its <coupler> is in its place");
+                "the <friction> of its <coupler> replaces it");
   expect_unused("robot.joint.extended.dynamics.damping=0.5",
                 "its <coupler> has its own free_damping");
 }
@@ -101,9 +101,9 @@ TEST_F(SettingOfARobot, ThatItsTypeOfJointDoesNotHaveIsTold) {
   expect_unused("robot.joint.free.axis.xyz=[0, 1, 0]",
                 "its type is floating, which has no axis");
   expect_unused("robot.joint.free.translational_damping=7",
-                "its type is floating, which holds no translation");
+                "its type is floating, which constrains no translation");
   expect_unused("robot.joint.free.rotational_stiffness=7",
-                "its type is floating, which holds no rotation");
+                "its type is floating, which constrains no rotation");
 }
 
 TEST_F(SettingOfARobot, ThatLimitsNoDriveIsTold) {

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene::collision_mesh_test {
@@ -106,7 +106,7 @@ TEST(CollisionMesh, IsTheSameOfEveryKindOfFile) {
     EXPECT_EQ(surface.x_B.cols(), 8) << name;
     EXPECT_EQ(surface.faces.size(), 12U) << name;
     EXPECT_NEAR(find_volume(surface), 1.0, 1e-14) << name;
-    EXPECT_TRUE(contact::Skin(surface).is_closed()) << name;
+    EXPECT_TRUE(contact::MeshSurface(surface).is_closed()) << name;
     EXPECT_DOUBLE_EQ(surface.patch_radius.maxCoeff(), 0.5) << name;
   }
 }
@@ -225,7 +225,7 @@ TEST(CollisionMesh, RefusesWhatIsNoClosedSurfaceAndSaysWhere) {
   EXPECT_THAT(refusal(turned), HasSubstr("has triangles of opposite senses"));
   auto inward = make_cube();
   for (auto& triangle : inward) std::swap(triangle[0], triangle[1]);
-  EXPECT_THAT(refusal(inward), HasSubstr("turned inside out (volume -1 m^3)"));
+  EXPECT_THAT(refusal(inward), HasSubstr("is inside out (volume -1 m^3)"));
   auto flat = make_cube();
   flat[4][2] = 0.5 * (flat[4][0] + flat[4][1]);
   EXPECT_THAT(refusal(flat),
@@ -253,7 +253,7 @@ TEST(CollisionMesh, RefusesDamagedFilesAndSaysWhere) {
   EXPECT_THAT(refusal("a.stl", "solid x\nendsolid\n"),
               HasSubstr("has no triangles"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 nan 0\n"),
-              HasSubstr("line 3: 'nan' is no finite number"));
+              HasSubstr("line 3: 'nan' is not a finite number"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 0 0\nendfacet\n"),
               HasSubstr("line 4: a facet without three corners"));
   EXPECT_THAT(refusal("a.stl", "solid\nfacet\nvertex 0 0 0\n"),

@@ -86,7 +86,7 @@ TEST(TouchingPairs, PatternsLeaveOutLinksThatAJointConnects) {
   EXPECT_THAT(list(touch({{"palm", "finger_1"}}), make_hand()),
               ElementsAre("1:palm/finger_1"));
   EXPECT_THAT(error_of(touch({{"pal*", "finger_1"}}), make_hand()),
-              HasSubstr("leaves no pair of bodies that can meet"));
+              HasSubstr("leaves no pair of bodies that can be in contact"));
 }
 
 TEST(TouchingPairs, PatternsLeaveOutLinksThatALoopConnects) {
@@ -158,10 +158,10 @@ TEST(TouchingPairs, PatternsPassOverLinksWithoutShapesThatNamesRefuse) {
   robot.links[1].collisions.clear();
   EXPECT_THAT(list(touch({{"finger_*", "target"}}), robot),
               ElementsAre("1:finger_2/target"));
-  EXPECT_THAT(error_of(touch({{"finger_1", "target"}}), robot),
-              HasSubstr("[[contact]] 1 between 'finger_1' and 'target': link "
-                        "'finger_1' has no shape that could touch; give it a "
-                        "<collision>"));
+  EXPECT_THAT(
+      error_of(touch({{"finger_1", "target"}}), robot),
+      HasSubstr("[[contact]] 1 between 'finger_1' and 'target': link "
+                "'finger_1' has no contact shape; give it a <collision>"));
   robot.links[3].collisions.clear();
   EXPECT_THAT(error_of(touch({{"finger_*", "target"}}), robot),
               HasSubstr("no link that 'finger_*' matches has a <collision>"));
@@ -184,10 +184,10 @@ TEST(TouchingPairs, RefusesShapesThatItDoesNotKnowOfLinksThatContactsAskFor) {
   for (const char* name : {"finger_1", "finger_*"}) {
     EXPECT_THAT(
         error_of(touch({{name, "target"}}), robot),
-        HasSubstr("link 'finger_1' has a <torus> in its <collision>, which "
-                  "contacts do not know; give <sphere>, <box>, <cylinder>, "
-                  "<capsule>, <cone>, <ellipsoid> or <mesh>, or make the "
-                  "link flexible"));
+        HasSubstr(
+            "link 'finger_1' has a <torus> in its <collision>, which contacts "
+            "do not support; use <sphere>, <box>, <cylinder>, <capsule>, "
+            "<cone>, <ellipsoid> or <mesh>, or make the link flexible"));
   }
 }
 
@@ -214,7 +214,7 @@ TEST(TouchingPairs, RefusesMorePairsThanAnyoneMeans) {
     robot.links.push_back(make_sphere("a" + std::to_string(i)));
   }
   EXPECT_THAT(error_of(touch({{"*", "*"}}), robot),
-              HasSubstr("stands for 124750 pairs of bodies; at most 100000"));
+              HasSubstr("matches 124750 pairs of bodies; at most 100000"));
 }
 
 }  // namespace

@@ -342,12 +342,14 @@ TEST(ContactProbe, RefusesBodiesThatAreNotThere) {
 }
 
 TEST(ContactProbe, RefusesBodiesThatNoContactLetsTouch) {
-  EXPECT_THAT(error_of(probe("force", "bell", "floor")),
-              HasSubstr("no [[contact]] lets 'bell' and 'floor' touch; those "
-                        "that may are 'ball' and 'floor'"));
-  EXPECT_THAT(error_of(probe("force", "bell", "floor"), ""),
-              HasSubstr("no [[contact]] lets 'bell' and 'floor' touch; there "
-                        "is none"));
+  EXPECT_THAT(
+      error_of(probe("force", "bell", "floor")),
+      HasSubstr("no [[contact]] allows contact of 'bell' and 'floor'; those "
+                "that may are 'ball' and 'floor'"));
+  EXPECT_THAT(
+      error_of(probe("force", "bell", "floor"), ""),
+      HasSubstr("no [[contact]] allows contact of 'bell' and 'floor'; there "
+                "is none"));
 }
 
 }  // namespace

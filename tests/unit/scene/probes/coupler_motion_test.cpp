@@ -68,7 +68,7 @@ TEST(CouplerMotion, HingeLeavesItsStopAtTheGivenRestitution) {
   EXPECT_NEAR(end[2], -1.0, 1e-4);  // of the integrator: (omega step)^2 = 1e-5
 }
 
-// I w' = -Fc but for vs^2 / 2 w^2 of it.
+// I w' = -Fc except for vs^2 / 2 w^2 of it.
 TEST(CouplerMotion, FrictionOfUrdfSlowsAHingeEvenly) {
   const SceneFolder folder;
   const auto end = simulate_probes(folder.build(

@@ -78,7 +78,7 @@ TEST(CouplerTraits, ProbesOfWhatIsNotThereAreRefusedBeforeAnythingIsMade) {
               HasSubstr("probe 'p': unknown coupler 'hnige'; did you mean "
                         "'hinge'"));
   EXPECT_THAT(error("weld", "force"),
-              HasSubstr("holds two rigid links together as one body"));
+              HasSubstr("joins two rigid links into one body"));
   EXPECT_THAT(error("nothing", "force"), HasSubstr("leaves everything free"));
   EXPECT_THAT(error("grip", "coordinate"),
               HasSubstr("leaves no coordinate free"));

@@ -287,7 +287,7 @@ TEST(CouplerReader, EndsSelectNodes) {
 }
 
 TEST(CouplerReader, AxesOfEndsThatHaveNoneAreRefused) {
-  const std::string nothing = "<from> 'rpy' would turn nothing here";
+  const std::string nothing = "<from> 'rpy' has no effect here";
   const std::string from = "<from link='b' rpy='0 0 1'/><to link='c'/>";
   EXPECT_THAT(error_of(base("revolute") + "<spring name='s' stiffness='1'>" +
                        from + "</spring>"),
@@ -295,7 +295,7 @@ TEST(CouplerReader, AxesOfEndsThatHaveNoneAreRefused) {
   EXPECT_THAT(error_of(base("revolute") +
                        "<bushing name='n' rotational_stiffness='1'>"
                        "<from link='b'/><to link='c' rpy='0 0 1'/></bushing>"),
-              HasSubstr("<to> 'rpy' would turn nothing here"));
+              HasSubstr("<to> 'rpy' has no effect here"));
   (void)read(base("revolute") + "<bushing name='n' rotational_stiffness='1'>" +
              from + "</bushing>");
   (void)read(base("revolute") +

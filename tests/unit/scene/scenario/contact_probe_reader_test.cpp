@@ -57,9 +57,10 @@ TEST(ContactProbeReader, ReadsEveryQuantity) {
 TEST(ContactProbeReader, RefusesKeysThatContactsDoNotHave) {
   EXPECT_THAT(error_of(kProbe + "quantity='froce'\n"),
               HasSubstr("did you mean 'force'"));
-  EXPECT_THAT(error_of(kProbe + "side='M'\n"),
-              HasSubstr("is of couplers alone; a contact's force is that on "
-                        "the second body of 'contact'"));
+  EXPECT_THAT(
+      error_of(kProbe + "side='M'\n"),
+      HasSubstr("applies only to couplers; a contact's force is that on "
+                "the second body of 'contact'"));
   EXPECT_THAT(error_of(kProbe + "frame='world'\n"),
               HasSubstr("vectors of a contact are in the world frame"));
   EXPECT_THAT(error_of(kProbe + "link='a'\ncoupler='c'\n"),

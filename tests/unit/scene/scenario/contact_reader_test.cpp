@@ -143,7 +143,7 @@ TEST(ContactReader, TellsEveryProblemOfAnObstacle) {
   EXPECT_THAT(error_of(obstacle("shape='cone'\nradius=1\n")),
               HasSubstr("length"));
   EXPECT_THAT(error_of(obstacle("shape='sphere'\nradius=1\nradii=[1,1,1]\n")),
-              HasSubstr("has no meaning for a sphere"));
+              HasSubstr("does not apply to a sphere"));
   EXPECT_THAT(error_of(obstacle("shape='box'\nsize=[1,0,1]\n")),
               HasSubstr("size: expected three numbers > 0"));
   EXPECT_THAT(error_of(obstacle("shape='cylinder'\n")),
@@ -151,9 +151,9 @@ TEST(ContactReader, TellsEveryProblemOfAnObstacle) {
   EXPECT_THAT(
       error_of(obstacle("shape='plane'\nnormal=[0,0,1]\norientation_rpy="
                         "[0,0,1]\n")),
-      HasSubstr("orientation_rpy: has no meaning for a plane; leave it out"));
+      HasSubstr("orientation_rpy: does not apply to a plane; leave it out"));
   EXPECT_THAT(error_of(obstacle("shape='sphere'\nradius=1\nsize=[1,1,1]\n")),
-              HasSubstr("size: has no meaning for a sphere"));
+              HasSubstr("size: does not apply to a sphere"));
   EXPECT_THAT(error_of("[[obstacle]]\nname='o'\nshape='sphere'\nradius=1\n"),
               HasSubstr("needs 'position'"));
 }
@@ -215,10 +215,10 @@ TEST(ContactReader, TellsWhichRestitutionsActAsTheLeast) {
       "[[contact]]\nbetween=['a','d']\nrestitution=0.049\n"
       "[[contact]]\nbetween=['a','e']\ndamping=0.1\n");
   ASSERT_EQ(scenario.warnings.size(), 1U);
-  EXPECT_THAT(scenario.warnings[0],
-              HasSubstr("'restitution' of [[contact]] 1, 3 is below 0.05, and "
-                        "acts as that: the bodies part with 0.25 % of their "
-                        "energy"));
+  EXPECT_THAT(
+      scenario.warnings[0],
+      HasSubstr("'restitution' of [[contact]] 1, 3 is below 0.05 and acts as "
+                "that value: the bodies separate with 0.25 % of their energy"));
 }
 
 TEST(ContactReader, TellsEveryProblemOfAContact) {

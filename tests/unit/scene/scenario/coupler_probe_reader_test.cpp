@@ -58,7 +58,7 @@ TEST(CouplerProbeReader, RefusesKeysThatTheQuantityDoesNotHave) {
   EXPECT_THAT(error_of(probe + "quantity='energy'\nframe='world'\n"),
               HasSubstr("has no axes"));
   EXPECT_THAT(error_of(probe + "quantity='relative_position'\nside='F'\n"),
-              HasSubstr("of 'force' and 'moment' alone"));
+              HasSubstr("only to 'force' and 'moment'"));
   EXPECT_THAT(error_of(probe + "quantity='force'\nlink='a'\n"),
               HasSubstr("both 'link' and 'coupler'"));
 }

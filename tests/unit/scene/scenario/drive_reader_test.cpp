@@ -62,7 +62,7 @@ TEST(DriveReader, ReadsEveryKeyOfAPositionDrive) {
   // Undamped: two halves, half a period apart.
   const auto& shaper = spec.drive.signal.shaper;
   ASSERT_EQ(shaper.size(), 2U);
-  EXPECT_EQ(shaper[0].share, 0.5);
+  EXPECT_EQ(shaper[0].fraction, 0.5);
   EXPECT_EQ(shaper[1].delay, 0.25);
 }
 
@@ -113,7 +113,7 @@ TEST(DriveReader, RefusesSignalsWithASlip) {
   EXPECT_THAT(error("kind='ramp',to=1,duration=1,rise=0.7,shape='trapezoid'"),
               HasSubstr("rise"));
   EXPECT_THAT(error("kind='ramp',to=1,duration=1,rise=0.2"),
-              HasSubstr("of shape 'trapezoid' alone"));
+              HasSubstr("only to shape 'trapezoid'"));
   EXPECT_THAT(error("kind='sine',amplitude=1,frequency=-1"),
               HasSubstr("frequency: is -1; expected a number > 0"));
   EXPECT_THAT(error("kind='table',times=[0,0],values=[1,2]"),
@@ -145,9 +145,9 @@ TEST(DriveReader, RefusesGainsThatTheModeDoesNotHave) {
   EXPECT_THAT(error("mode='position'\n"), HasSubstr("needs 'stiffness'"));
   EXPECT_THAT(error("mode='velocity'\n"), HasSubstr("needs 'damping'"));
   EXPECT_THAT(error("mode='velocity'\ndamping=1\nstiffness=2\n"),
-              HasSubstr("no meaning in this mode"));
+              HasSubstr("does not apply in this mode"));
   EXPECT_THAT(error("mode='effort'\ndamping=1\n"),
-              HasSubstr("no meaning in this mode"));
+              HasSubstr("does not apply in this mode"));
   EXPECT_THAT(error("mode='effort'\nmax_effort=0.5\n"),
               HasSubstr("commands an effort of 1; its limit is 0.5"));
   EXPECT_THAT(error("mode='effort'\nmax_speed=0\n"), HasSubstr("max_speed"));
@@ -161,7 +161,7 @@ TEST(DriveReader, RefusesADriveWithoutOnePlace) {
   EXPECT_THAT(error_of("[[drive]]\njoint='a'\ntendon='b'\n" + rest),
               HasSubstr("needs one of 'joint' and 'tendon'"));
   EXPECT_THAT(error_of("[[drive]]\ntendon='b'\ncoordinate=1\n" + rest),
-              HasSubstr("a tendon has its length alone"));
+              HasSubstr("a tendon has only its length"));
   EXPECT_THAT(error_of("[[drive]]\njoint='a'\n" + rest +
                        "[[drive]]\njoint='a'\n" + rest),
               HasSubstr("'a' is given twice"));

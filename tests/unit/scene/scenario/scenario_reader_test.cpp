@@ -156,7 +156,7 @@ TEST(ScenarioReader, ReadsInitialDeformations) {
   EXPECT_EQ(b.velocity.filename(), "v.txt");
   EXPECT_THAT(error_of(kStart + "[initial.links.a]\nvelocity='v'\n"
                                 "modes={position=1}\n"),
-              HasSubstr("keep one of the two ways"));
+              HasSubstr("give only one of the two"));
   EXPECT_THAT(error_of(kStart + "[initial.links.a]\nmodes={position=nan}\n"),
               HasSubstr("position"));
 }

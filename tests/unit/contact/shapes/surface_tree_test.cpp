@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/skin_tree.hpp"
+#include "limber/contact/shapes/surface_tree.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact::skin_tree_test {
+namespace limber::contact::surface_tree_test {
 namespace {
 
 // Points of every face, as deformed, by the sum of nodes itself.
-TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
+TEST(SurfaceTree, BoxesHoldTheirFacesHoweverTheyDeform) {
   auto surface = test::make_ball_surface(0.8, 1, true);
   test::set_modes(surface, test::make_fields());
-  const SkinTree tree(surface.faces, surface.x_B, surface.Phi_B);
+  const SurfaceTree tree(surface.faces, surface.x_B, surface.Phi_B);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> draw(-1.0, 1.0);
   for (int trial = 0; trial < 5; ++trial) {
@@ -29,7 +29,7 @@ TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
     while (!nodes.empty()) {
       const int i = nodes.back();
       nodes.pop_back();
-      const SkinTree::Box box = tree.find_box(i, test::view(eta));
+      const SurfaceTree::Box box = tree.find_box(i, test::view(eta));
       for (const int f : tree.find_faces(tree.node(i))) {
         if (tree.node(i).is_leaf()) seen.insert(f);
         for (double u = 0.0; u <= 1.0; u += 0.125) {
@@ -51,10 +51,10 @@ TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
   }
 }
 
-TEST(SkinTree, BoxesOfAWholeDeformationAreTight) {
+TEST(SurfaceTree, BoxesOfAWholeDeformationAreTight) {
   auto surface = test::make_ball_surface(1.0, 1, false);
   test::set_modes(surface, {[](const Vector3&) { return Vector3(1, 2, 3); }});
-  const SkinTree tree(surface.faces, surface.x_B, surface.Phi_B);
+  const SurfaceTree tree(surface.faces, surface.x_B, surface.Phi_B);
   const VectorX eta = VectorX::Constant(1, 10.0);
   const VectorX still = VectorX::Zero(1);
   const auto box = tree.find_box(0, test::view(eta));
@@ -64,4 +64,4 @@ TEST(SkinTree, BoxesOfAWholeDeformationAreTight) {
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_tree_test
+}  // namespace limber::contact::surface_tree_test

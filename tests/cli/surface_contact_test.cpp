@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole skins of flexible links through the command: a rod's end against the
+// Whole surfaces of flexible links through the command: a rod's end against the
 // wave solution, and energy, momentum and names of bars and angles that strike.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 
 #include "cli/command.hpp"
 #include "cli/impact_run.hpp"
-#include "cli/skin_link.hpp"
+#include "cli/surface_link.hpp"
 
-namespace limber::test::skin_contact_test {
+namespace limber::test::surface_contact_test {
 namespace {
 
 using nlohmann::json;
@@ -33,7 +33,7 @@ Mesh.ElementOrder = 2;
                      length, 0.5 * width, 0.5 * height, cells);
 }
 
-TEST(SkinOfARod, StrikesOnceAsTheWaveSolutionSays) {
+TEST(SurfaceOfARod, StrikesOnceAsTheWaveSolutionSays) {
   const Workspace place;
   place.write("rod.geo", make_bar(1.0, 0.01, 0.01, 60));
   expect_wave_impact(place, 0.002, 0.998);
@@ -45,7 +45,7 @@ json strike_bars(double yaw, const std::string& first,
                  const std::string& second, const std::string& options) {
   const Workspace place;
   place.write("bar.geo", make_bar(0.2, 0.02, 0.008, 6));
-  place.write("bar.urdf", make_skin_link("bar.geo", 3e9, 1500.0, 6));
+  place.write("bar.urdf", make_surface_link("bar.geo", 3e9, 1500.0, 6));
   place.write("scene.toml", fmt::format(R"(
 [time]
 duration = 0.003
@@ -70,7 +70,7 @@ pictures = false
   return run_for_summary(place, "scene.toml");
 }
 
-TEST(SkinsOfBars, StrikeAlikeWhicheverNameStandsFirst) {
+TEST(SurfacesOfBars, StrikeAlikeWhicheverNameStandsFirst) {
   for (const double yaw : {0.0, 1.3}) {
     const json one = strike_bars(yaw, "A.b", "B.b", "friction = 0.3");
     const json other = strike_bars(yaw, "B.b", "A.b", "friction = 0.3");
@@ -87,4 +87,4 @@ TEST(SkinsOfBars, StrikeAlikeWhicheverNameStandsFirst) {
 }
 
 }  // namespace
-}  // namespace limber::test::skin_contact_test
+}  // namespace limber::test::surface_contact_test

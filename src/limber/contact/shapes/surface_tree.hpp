@@ -21,7 +21,7 @@ using ModalView = Eigen::Map<const VectorX>;
 ///            [min X, max X] + c . eta +- h . |eta|, where c +- h are the
 ///            bounds of each mode's Phi over the node's control points
 /// Source     [@james2004], of boxes in place of spheres
-class SkinTree {
+class SurfaceTree {
  public:
   struct Box {
     Vector3 centre = Vector3::Zero();  ///< [m]
@@ -43,12 +43,12 @@ class SkinTree {
   /// Faces of a leaf, at most.
   static constexpr int kLeafFaces = 2;
 
-  SkinTree() = default;
+  SurfaceTree() = default;
   /// @param faces rows of nodes as those of flexbody::ContactSurface, not none
   /// @param X 3 x n [m]
   /// @param Phi 3n x m [kg^-1/2]
-  SkinTree(const std::vector<std::array<int, 6>>& faces, const Matrix3X& X,
-           const MatrixX& Phi);
+  SurfaceTree(const std::vector<std::array<int, 6>>& faces, const Matrix3X& X,
+              const MatrixX& Phi);
 
   /// For an eta of displacements whose last entry is their largest magnitude:
   /// enlarges the boxes by `spread` times that [-].

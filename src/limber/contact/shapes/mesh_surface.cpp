@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,13 @@ Eigen::Index column_of(int node) { return 3 * Eigen::Index{node}; }
 
 }  // namespace
 
-Skin::Skin(flexbody::ContactSurface surface) : surface_(std::move(surface)) {
+MeshSurface::MeshSurface(flexbody::ContactSurface surface)
+    : surface_(std::move(surface)) {
   prepare();
 }
 
-Skin::Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes)
+MeshSurface::MeshSurface(flexbody::FullContactSurface surface,
+                         Eigen::Index mesh_nodes)
     : surface_(std::move(surface.surface)),
       means_(std::move(surface.means)),
       pieces_(std::move(surface.pieces)),
@@ -30,7 +32,7 @@ Skin::Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes)
   tree_.set_spread(spread_);
 }
 
-void Skin::prepare() {
+void MeshSurface::prepare() {
   check();
   const Eigen::Index n = surface_.x_B.cols();
   modes_.resize(surface_.Phi_B.cols(), 3 * n);
@@ -38,11 +40,11 @@ void Skin::prepare() {
   connect();
   mark_border();
   set_bounds();
-  tree_ = SkinTree(surface_.faces, surface_.x_B,
-                   modes_.rows() > 0 ? surface_.Phi_B : MatrixX(3 * n, 0));
+  tree_ = SurfaceTree(surface_.faces, surface_.x_B,
+                      modes_.rows() > 0 ? surface_.Phi_B : MatrixX(3 * n, 0));
 }
 
-void Skin::check() const {
+void MeshSurface::check() const {
   const flexbody::ContactSurface& s = surface_;
   const auto refuse = [&s](const std::string& problem) {
     throw InputError(
@@ -79,7 +81,7 @@ void Skin::check() const {
   }
 }
 
-void Skin::check_means() const {
+void MeshSurface::check_means() const {
   const auto n = static_cast<std::size_t>(surface_.x_B.cols());
   const auto is_beyond = [this](int node) {
     return node < 0 || node >= mesh_nodes_;
@@ -96,7 +98,7 @@ void Skin::check_means() const {
       surface_.name, n, mesh_nodes_));
 }
 
-void Skin::connect() {
+void MeshSurface::connect() {
   const std::size_t n = node_count();
   std::vector<bool> has_face(n, false);
   first_faces_.assign(n + 1, 0);
@@ -125,7 +127,7 @@ void Skin::connect() {
   }
 }
 
-void Skin::mark_border() {
+void MeshSurface::mark_border() {
   is_border_.resize(surface_.faces.size());
   is_border_node_.assign(node_count(), false);
   for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
@@ -147,7 +149,7 @@ void Skin::mark_border() {
   }
 }
 
-void Skin::set_bounds() {
+void MeshSurface::set_bounds() {
   centre_ = 0.5 * (surface_.x_B.rowwise().minCoeff() +
                    surface_.x_B.rowwise().maxCoeff());
   largest_motions_ = VectorX::Zero(modes_.rows());
@@ -173,7 +175,7 @@ void Skin::set_bounds() {
         take_in(surface_.x_B.col(nodes[i]), find_rows(nodes[i]));
         continue;
       }
-      // A face is within the hull of these (SkinTree).
+      // A face is within the hull of these (SurfaceTree).
       const int a = nodes[i - 3];
       const int b = nodes[(i - 2) % 3];
       take_in(2.0 * surface_.x_B.col(nodes[i]) -
@@ -183,13 +185,13 @@ void Skin::set_bounds() {
   }
 }
 
-std::span<const int> Skin::find_faces_of(int node) const {
+std::span<const int> MeshSurface::find_faces_of(int node) const {
   const int first = first_faces_[index(node)];
   return std::span(faces_of_nodes_)
       .subspan(index(first), index(first_faces_[index(node) + 1] - first));
 }
 
-double Skin::sum_weights(int node) const {
+double MeshSurface::sum_weights(int node) const {
   double sum = 0.0;
   for (auto k = means_.first[index(node)]; k < means_.first[index(node) + 1];
        ++k) {
@@ -198,7 +200,7 @@ double Skin::sum_weights(int node) const {
   return sum;
 }
 
-VectorX Skin::find_mode_reach() const {
+VectorX MeshSurface::find_mode_reach() const {
   VectorX reach = VectorX::Zero(mode_count());
   if (has_means()) {
     reach[reach.size() - 1] = spread_;
@@ -211,7 +213,7 @@ VectorX Skin::find_mode_reach() const {
   return reach;
 }
 
-Vector3 Skin::deform(int node, const ModalView& eta) const {
+Vector3 MeshSurface::deform(int node, const ModalView& eta) const {
   Vector3 x = surface_.x_B.col(node);
   if (has_means()) {
     for (auto k = means_.first[index(node)]; k < means_.first[index(node) + 1];
@@ -227,7 +229,7 @@ Vector3 Skin::deform(int node, const ModalView& eta) const {
   return x;
 }
 
-FacePatch Skin::deform_face(int f, const ModalView& eta) const {
+FacePatch MeshSurface::deform_face(int f, const ModalView& eta) const {
   const Face& nodes = face(f);
   if (nodes[3] < 0) {
     return FacePatch(std::array<Vector3, 3>{
@@ -238,7 +240,7 @@ FacePatch Skin::deform_face(int f, const ModalView& eta) const {
   return FacePatch(X);
 }
 
-SurfacePlace Skin::make_place(int f, const FacePlace& at) const {
+SurfacePlace MeshSurface::make_place(int f, const FacePlace& at) const {
   const Face& nodes = face(f);
   const auto weights = find_shape_functions(at, nodes[3] < 0);
   SurfacePlace place{.face = f, .u = at.u, .v = at.v};
@@ -248,16 +250,17 @@ SurfacePlace Skin::make_place(int f, const FacePlace& at) const {
   return place;
 }
 
-double Skin::find_deformation_bound(const ModalView& eta) const {
+double MeshSurface::find_deformation_bound(const ModalView& eta) const {
   if (has_means()) return spread_ * eta[eta.size() - 1];
   return largest_motions_.dot(eta.cwiseAbs());
 }
 
-double Skin::find_extent(const ModalView& eta) const {
+double MeshSurface::find_extent(const ModalView& eta) const {
   return centre_.norm() + radius_ + find_deformation_bound(eta);
 }
 
-void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
+void MeshSurface::set_shape_functions(const SurfacePlace& place,
+                                      Matrix3X& out) const {
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   LIMBER_EXPECT(out.cols() == mode_count());
   const Face& nodes = face(place.face);
@@ -269,7 +272,7 @@ void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
   }
 }
 
-void Skin::add_rows(int node, double weight, Matrix3X& out) const {
+void MeshSurface::add_rows(int node, double weight, Matrix3X& out) const {
   if (!has_means()) {
     out += weight * modes_.middleCols<3>(column_of(node)).transpose();
     return;
@@ -281,7 +284,7 @@ void Skin::add_rows(int node, double weight, Matrix3X& out) const {
   }
 }
 
-double Skin::find_residual(const SurfacePlace& place) const {
+double MeshSurface::find_residual(const SurfacePlace& place) const {
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   const Face& nodes = face(place.face);
   const auto weights = FacePlace{place.u, place.v}.weights();
@@ -292,15 +295,15 @@ double Skin::find_residual(const SurfacePlace& place) const {
   return residual;
 }
 
-Vector3 Skin::find_position(const SurfacePlace& place,
-                            const ModalView& eta) const {
+Vector3 MeshSurface::find_position(const SurfacePlace& place,
+                                   const ModalView& eta) const {
   return deform_face(place.face, eta).find_point({place.u, place.v});
 }
 
-ModalView find_modal_coordinates(const Skin& skin,
+ModalView find_modal_coordinates(const MeshSurface& mesh_surface,
                                  const joints::PairBody& body) {
-  if (skin.mode_count() == 0) return {nullptr, 0};
-  LIMBER_EXPECT(skin.mode_count() == body.modes);
+  if (mesh_surface.mode_count() == 0) return {nullptr, 0};
+  LIMBER_EXPECT(mesh_surface.mode_count() == body.modes);
   return {body.eta, body.modes};
 }
 

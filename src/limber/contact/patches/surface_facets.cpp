@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/skin_facets.hpp"
+#include "limber/contact/patches/surface_facets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double kStraight = 1e-6;
 
 // Left of each edge.
 std::map<std::pair<int, int>, std::size_t> list_edges(
-    const std::vector<SkinFacet>& facets) {
+    const std::vector<SurfaceFacet>& facets) {
   std::map<std::pair<int, int>, std::size_t> owners;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -30,12 +30,12 @@ std::map<std::pair<int, int>, std::size_t> list_edges(
   return owners;
 }
 
-// Cosine of the turn between two facets.
-double find_cosine(const SkinFacet& a, const SkinFacet& b) {
+// Cosine of the angle between two facets.
+double find_cosine(const SurfaceFacet& a, const SurfaceFacet& b) {
   return a.area.normalized().dot(b.area.normalized());
 }
 
-void number_patches(std::vector<SkinFacet>& facets) {
+void number_patches(std::vector<SurfaceFacet>& facets) {
   std::vector<std::size_t> parent(facets.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&parent](std::size_t i) {
@@ -56,8 +56,8 @@ void number_patches(std::vector<SkinFacet>& facets) {
 
 }  // namespace
 
-std::vector<SkinFacet> find_facets(const flexbody::ContactSurface& surface) {
-  std::vector<SkinFacet> facets;
+std::vector<SurfaceFacet> find_facets(const flexbody::ContactSurface& surface) {
+  std::vector<SurfaceFacet> facets;
   const auto add = [&](int a, int b, int c) {
     const Vector3 x = surface.x_B.col(a);
     const Vector3 y = surface.x_B.col(b);
@@ -79,7 +79,7 @@ std::vector<SkinFacet> find_facets(const flexbody::ContactSurface& surface) {
   return facets;
 }
 
-bool is_polyhedral(const std::vector<SkinFacet>& facets) {
+bool is_polyhedral(const std::vector<SurfaceFacet>& facets) {
   const auto owners = list_edges(facets);
   return std::ranges::all_of(owners, [&](const auto& entry) {
     const auto& [edge, f] = entry;

@@ -12,15 +12,15 @@
 namespace limber::flexbody {
 
 /// The part of a surface within a box.
-struct SkinSlice {
+struct SurfaceSlice {
   std::vector<const SurfaceSample*> samples;
   Matrix3X normals;  ///< 3 x k of the planes that part it from others, outward
   VectorX heights;   ///< k: n . x on them [m]
 };
 
-struct SkinDivision {
+struct SurfaceDivision {
   Matrix3 axes = Matrix3::Identity();  ///< of the boxes
-  std::vector<SkinSlice> slices;
+  std::vector<SurfaceSlice> slices;
 };
 
 /// Halves a box about the surface, then the boxes that deform most, across
@@ -34,7 +34,7 @@ struct SkinDivision {
 /// @param samples outlive it @param lambda [rad^2/s^2]
 /// @param Phi 3N x m rows of all nodes, its first columns those of lambda
 /// @param modulus E' = E / (1 - nu^2) [Pa]
-[[nodiscard]] SkinDivision divide_skin(
+[[nodiscard]] SurfaceDivision divide_surface(
     const std::vector<SurfaceSample>& samples, const VectorX& lambda,
     const MatrixX& Phi, double modulus, std::size_t most);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/slices/skin_division.hpp"
+#include "limber/reduction/slices/surface_division.hpp"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +76,7 @@ class Division {
     }
   }
 
-  [[nodiscard]] SkinDivision run(std::size_t most) {
+  [[nodiscard]] SurfaceDivision run(std::size_t most) {
     Cell whole{places_.rowwise().minCoeff(), places_.rowwise().maxCoeff(), {}};
     for (Eigen::Index i = 0; i < places_.cols(); ++i)
       whole.samples.push_back(i);
@@ -86,7 +86,7 @@ class Division {
     cells_ = {std::move(whole)};
     while (find_all_own() > kMostDeformation * all_ && refine(most)) {
     }
-    SkinDivision division{axes_, {}};
+    SurfaceDivision division{axes_, {}};
     for (const Cell& cell : cells_) division.slices.push_back(make(cell));
     return division;
   }
@@ -179,8 +179,8 @@ class Division {
     return halves;
   }
 
-  [[nodiscard]] SkinSlice make(const Cell& cell) const {
-    SkinSlice slice{list_samples(cell), Matrix3X(3, 0), VectorX(0)};
+  [[nodiscard]] SurfaceSlice make(const Cell& cell) const {
+    SurfaceSlice slice{list_samples(cell), Matrix3X(3, 0), VectorX(0)};
     const auto add = [&](const Vector3& n, double h) {
       const Eigen::Index k = slice.heights.size();
       slice.normals.conservativeResize(Eigen::NoChange, k + 1);
@@ -210,9 +210,9 @@ class Division {
 
 }  // namespace
 
-SkinDivision divide_skin(const std::vector<SurfaceSample>& samples,
-                         const VectorX& lambda, const MatrixX& Phi,
-                         double modulus, std::size_t most) {
+SurfaceDivision divide_surface(const std::vector<SurfaceSample>& samples,
+                               const VectorX& lambda, const MatrixX& Phi,
+                               double modulus, std::size_t most) {
   return Division(samples, lambda, Phi, modulus).run(most);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Skins of round flexible links through the command: a rod's end against the
+// Surfaces of round flexible links through the command: a rod's end against the
 // wave solution, and energy, momentum and names of rods that strike.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 
 #include "cli/command.hpp"
 #include "cli/impact_run.hpp"
-#include "cli/skin_link.hpp"
+#include "cli/surface_link.hpp"
 
-namespace limber::test::round_skin_test {
+namespace limber::test::round_surface_test {
 namespace {
 
 using nlohmann::json;
@@ -46,7 +46,7 @@ json strike_rods(double yaw, const std::string& first,
                  const std::string& second) {
   const Workspace place;
   place.write("rod.geo", make_rod(0.2, 0.006, 16));
-  place.write("rod.urdf", make_skin_link("rod.geo", 3e9, 1500.0, 8));
+  place.write("rod.urdf", make_surface_link("rod.geo", 3e9, 1500.0, 8));
   place.write("scene.toml", fmt::format(R"(
 [time]
 duration = 0.003
@@ -90,4 +90,4 @@ TEST(RoundRods, KeepEnergyWhicheverNameStandsFirst) {
 }
 
 }  // namespace
-}  // namespace limber::test::round_skin_test
+}  // namespace limber::test::round_surface_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/fem/solid/skin.hpp"
+#include "limber/fem/solid/surface_matrix.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -28,15 +28,16 @@ MatrixX calc_face_area(const ReferenceElement& element, std::size_t face,
 
 void widen(const Matrix3& H, LargestGradient& largest) {
   const Matrix3 strain = 0.5 * (H + H.transpose());
-  const Vector3 turn(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0), H(1, 0) - H(0, 1));
+  const Vector3 rotation(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0),
+                         H(1, 0) - H(0, 1));
   largest.strain = std::max(
       largest.strain, dense::find_eigenvalues(strain).cwiseAbs().maxCoeff());
-  largest.rotation = std::max(largest.rotation, 0.5 * turn.norm());
+  largest.rotation = std::max(largest.rotation, 0.5 * rotation.norm());
 }
 
 }  // namespace
 
-SparseMatrix assemble_skin(const Mesh& mesh) {
+SparseMatrix assemble_surface_matrix(const Mesh& mesh) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const BoundaryFace& face : mesh.boundary_faces) {
     const ElementBlock& block =
@@ -51,9 +52,9 @@ SparseMatrix assemble_skin(const Mesh& mesh) {
         entries.emplace_back(nodes[a], nodes[b], area(a, b));
   }
   const auto count = static_cast<Eigen::Index>(mesh.node_count());
-  SparseMatrix skin(count, count);
-  skin.setFromTriplets(entries.begin(), entries.end());
-  return skin;
+  SparseMatrix mesh_surface(count, count);
+  mesh_surface.setFromTriplets(entries.begin(), entries.end());
+  return mesh_surface;
 }
 
 LargestGradient calc_largest_gradient(const Mesh& mesh, const Matrix3X& u) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact::skin_test {
+namespace limber::contact::mesh_surface_test {
 namespace {
 
 using test::view;
@@ -31,9 +31,9 @@ VectorX make_eta() {
   return eta;
 }
 
-TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
+TEST(MeshSurface, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
   const auto surface = make_flexible_ball();
-  const Skin skin(surface);
+  const MeshSurface mesh_surface(surface);
   const VectorX eta = make_eta();
   constexpr std::array<FacePlace, 6> kNodes = {
       {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
@@ -42,30 +42,30 @@ TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
     for (std::size_t i = 0; i < 6; ++i) {
       const int node = surface.faces[index(f)][i];
       const SurfacePlace place{.face = f, .u = kNodes[i].u, .v = kNodes[i].v};
-      skin.set_shape_functions(place, Phi);
+      mesh_surface.set_shape_functions(place, Phi);
       EXPECT_LT((Phi - surface.Phi_B.middleRows(3 * node, 3)).norm(), 1e-14);
-      EXPECT_LT((skin.find_position(place, view(eta)) - surface.x_B.col(node) -
-                 Phi * eta)
+      EXPECT_LT((mesh_surface.find_position(place, view(eta)) -
+                 surface.x_B.col(node) - Phi * eta)
                     .norm(),
                 1e-14);
     }
   }
 }
 
-TEST(Skin, ResidualIsLinearBetweenCorners) {
+TEST(MeshSurface, ResidualIsLinearBetweenCorners) {
   auto surface = test::make_ball_surface(1.0, 0, true);
   surface.residual.setConstant(100.0);  // of middle nodes, which do not count
   const auto corners = surface.faces[3];
   surface.residual[corners[0]] = 1.0;
   surface.residual[corners[1]] = 2.0;
   surface.residual[corners[2]] = 5.0;
-  const Skin skin(surface);
-  EXPECT_DOUBLE_EQ(skin.find_residual({.face = 3, .u = 0.5, .v = 0.25}),
+  const MeshSurface mesh_surface(surface);
+  EXPECT_DOUBLE_EQ(mesh_surface.find_residual({.face = 3, .u = 0.5, .v = 0.25}),
                    0.25 * 1.0 + 0.5 * 2.0 + 0.25 * 5.0);
 }
 
-TEST(Skin, ExtentHoldsEveryPointHoweverItDeforms) {
-  const Skin skin(make_flexible_ball());
+TEST(MeshSurface, ExtentHoldsEveryPointHoweverItDeforms) {
+  const MeshSurface mesh_surface(make_flexible_ball());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> draw(-0.5, 0.5);
   for (int trial = 0; trial < 20; ++trial) {
@@ -75,21 +75,21 @@ TEST(Skin, ExtentHoldsEveryPointHoweverItDeforms) {
     for (int f = 0; f < 80; ++f) {
       for (const double u : {0.0, 0.3, 0.6}) {
         for (const double v : {0.0, 0.2, 0.4}) {
-          const Vector3 x =
-              skin.find_position({.face = f, .u = u, .v = v}, view(eta));
+          const Vector3 x = mesh_surface.find_position(
+              {.face = f, .u = u, .v = v}, view(eta));
           largest = std::max(largest, x.norm());
         }
       }
     }
-    EXPECT_LE(largest, skin.find_extent(view(eta)));
-    EXPECT_LT(skin.find_extent(view(eta)), 4.0 * largest);
+    EXPECT_LE(largest, mesh_surface.find_extent(view(eta)));
+    EXPECT_LT(mesh_surface.find_extent(view(eta)), 4.0 * largest);
   }
 }
 
 void expect_refused(const flexbody::ContactSurface& surface,
                     const std::string& words) {
   try {
-    const Skin skin(surface);
+    const MeshSurface mesh_surface(surface);
     ADD_FAILURE() << "no error: " << words;
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("surface 'skin'"));
@@ -97,7 +97,7 @@ void expect_refused(const flexbody::ContactSurface& surface,
   }
 }
 
-TEST(Skin, WrongSurfacesAreRefusedByName) {
+TEST(MeshSurface, WrongSurfacesAreRefusedByName) {
   const auto good = make_flexible_ball();
   auto bad = good;
   bad.faces.clear();
@@ -128,9 +128,9 @@ TEST(Skin, WrongSurfacesAreRefusedByName) {
   expect_refused(bad, "in no face");
 }
 
-TEST(Skin, ModesOfTheBodyAreThoseOfTheSkin) {
-  const Skin flexible(make_flexible_ball());
-  const Skin rigid(test::make_ball_surface(1.0, 0, false));
+TEST(MeshSurface, ModesOfTheBodyAreThoseOfTheSurface) {
+  const MeshSurface flexible(make_flexible_ball());
+  const MeshSurface rigid(test::make_ball_surface(1.0, 0, false));
   const VectorX eta = make_eta();
   const joints::PairBody body{.modes = 4, .eta = eta.data()};
   EXPECT_EQ(find_modal_coordinates(flexible, body), eta);
@@ -140,4 +140,4 @@ TEST(Skin, ModesOfTheBodyAreThoseOfTheSkin) {
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_test
+}  // namespace limber::contact::mesh_surface_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/skin_tree.hpp"
+#include "limber/contact/shapes/surface_tree.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -24,14 +24,14 @@ int count_controls(const Face& face) { return face[3] < 0 ? 3 : 6; }
 }  // namespace
 
 // Bounds of control points' coordinates, one column per box: X, then each mode.
-struct SkinTree::Controls {
+struct SurfaceTree::Controls {
   const std::vector<Face>& faces;
   const Matrix3X& X;
   MatrixX rows;  // 3m x n: all modes' motions of a node in its column
 };
 
-SkinTree::SkinTree(const std::vector<Face>& faces, const Matrix3X& X,
-                   const MatrixX& Phi) {
+SurfaceTree::SurfaceTree(const std::vector<Face>& faces, const Matrix3X& X,
+                         const MatrixX& Phi) {
   order_.resize(faces.size());
   std::iota(order_.begin(), order_.end(), 0);
   Matrix3X centres(3, static_cast<Eigen::Index>(faces.size()));
@@ -50,7 +50,7 @@ SkinTree::SkinTree(const std::vector<Face>& faces, const Matrix3X& X,
   set_bounds(controls);
 }
 
-int SkinTree::build(const Matrix3X& centres, int first, int count) {
+int SurfaceTree::build(const Matrix3X& centres, int first, int count) {
   const int me = static_cast<int>(nodes_.size());
   nodes_.push_back({.first = first, .count = count});
   if (count <= kLeafFaces) return me;
@@ -75,7 +75,7 @@ int SkinTree::build(const Matrix3X& centres, int first, int count) {
   return me;
 }
 
-void SkinTree::set_bounds(const Controls& controls) {
+void SurfaceTree::set_bounds(const Controls& controls) {
   const auto size = static_cast<Eigen::Index>(nodes_.size());
   const Eigen::Index modes = controls.rows.rows();
   Matrix3X low_X(3, size);
@@ -120,7 +120,7 @@ void SkinTree::set_bounds(const Controls& controls) {
   halves_.reshaped() = (0.5 * (high - low)).reshaped();
 }
 
-SkinTree::Box SkinTree::find_box(int i, const ModalView& eta) const {
+SurfaceTree::Box SurfaceTree::find_box(int i, const ModalView& eta) const {
   // Round-off of sums must not move a face out of its box.
   constexpr double kMargin = 1e-12;
   Box box = boxes_[index(i)];

@@ -10,12 +10,12 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/patches/skin_parts.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
-/// Skins of round meshes: which bodies stand for their slices, and what these
-/// do against others.
-namespace limber::contact::round_skin_test {
+/// Surfaces of round meshes: which bodies stand for their slices, and what
+/// these do against others.
+namespace limber::contact::round_surface_test {
 namespace {
 
 using joints::PairBody;
@@ -31,8 +31,8 @@ struct Ring {
 /// A profile turned about z, of n sides, in a frame at X.
 flexbody::ContactSurface revolve(const std::vector<Ring>& profile, int n,
                                  const Pose& X = {}) {
-  flexbody::ContactSurface skin;
-  skin.name = "skin";
+  flexbody::ContactSurface mesh_surface;
+  mesh_surface.name = "skin";
   std::vector<Vector3> points;
   std::vector<std::vector<int>> rings;
   for (const Ring& ring : profile) {
@@ -47,7 +47,8 @@ flexbody::ContactSurface revolve(const std::vector<Ring>& profile, int n,
     }
   }
   const auto add = [&](int a, int b, int c) {
-    if (a != b && b != c && c != a) skin.faces.push_back({a, b, c, -1, -1, -1});
+    if (a != b && b != c && c != a)
+      mesh_surface.faces.push_back({a, b, c, -1, -1, -1});
   };
   for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
     for (int i = 0; i < n; ++i) {
@@ -58,22 +59,22 @@ flexbody::ContactSurface revolve(const std::vector<Ring>& profile, int n,
     }
   }
   const auto count = static_cast<Eigen::Index>(points.size());
-  skin.x_B.resize(3, count);
+  mesh_surface.x_B.resize(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    skin.x_B.col(i) = points[static_cast<std::size_t>(i)];
-    skin.tags.push_back(static_cast<std::size_t>(i) + 1);
+    mesh_surface.x_B.col(i) = points[static_cast<std::size_t>(i)];
+    mesh_surface.tags.push_back(static_cast<std::size_t>(i) + 1);
   }
-  skin.Phi_B.resize(3 * count, 0);
-  skin.residual = VectorX::Zero(count);
-  skin.patch_radius = VectorX::Constant(count, 0.01);
-  skin.youngs_modulus = kModulus;
-  skin.poisson_ratio = 0.3;
-  return skin;
+  mesh_surface.Phi_B.resize(3 * count, 0);
+  mesh_surface.residual = VectorX::Zero(count);
+  mesh_surface.patch_radius = VectorX::Constant(count, 0.01);
+  mesh_surface.youngs_modulus = kModulus;
+  mesh_surface.poisson_ratio = 0.3;
+  return mesh_surface;
 }
 
 // Planes z = at part the slices, without modes.
 void cut_along_z(const std::vector<double>& at, const Pose& X,
-                 flexbody::ContactSurface& skin) {
+                 flexbody::ContactSurface& mesh_surface) {
   for (std::size_t i = 0; i <= at.size(); ++i) {
     flexbody::ContactSlice slice;
     slice.normals_B.resize(3, 0);
@@ -89,7 +90,7 @@ void cut_along_z(const std::vector<double>& at, const Pose& X,
     if (i > 0) add(-1.0, at[i - 1]);
     if (i < at.size()) add(1.0, at[i]);
     slice.centre_B = Vector3(0.01 * static_cast<double>(i), 0.002, -0.001);
-    skin.slices.push_back(slice);
+    mesh_surface.slices.push_back(slice);
   }
 }
 
@@ -122,11 +123,11 @@ std::vector<Ring> make_capsule(double r, double h, bool is_low_round) {
   return profile;
 }
 
-TEST(RoundSkin, OfARodIsACylinderInEachSlice) {
+TEST(RoundSurface, OfARodIsACylinderInEachSlice) {
   for (const int sides : {20, 48}) {
-    auto skin = revolve(make_rod(0.02, 0.1, 10), sides, kTurned);
-    cut_along_z({-0.03, 0.04}, kTurned, skin);
-    const SkinParts parts = split_skin(skin);
+    auto mesh_surface = revolve(make_rod(0.02, 0.1, 10), sides, kTurned);
+    cut_along_z({-0.03, 0.04}, kTurned, mesh_surface);
+    const SurfaceParts parts = split_surface(mesh_surface);
     ASSERT_EQ(parts.bodies.size(), 3U);
     EXPECT_LT(parts.error, 1e-9);
     const double ends[] = {-0.1, -0.03, 0.04, 0.1};
@@ -144,31 +145,31 @@ TEST(RoundSkin, OfARodIsACylinderInEachSlice) {
   }
 }
 
-TEST(RoundSkin, OfAPrismOfTwelveSidesIsItself) {
-  auto skin = revolve(make_rod(0.02, 0.1, 4), 12);
-  cut_along_z({}, {}, skin);
-  const SkinParts parts = split_skin(skin);
+TEST(RoundSurface, OfAPrismOfTwelveSidesIsItself) {
+  auto mesh_surface = revolve(make_rod(0.02, 0.1, 4), 12);
+  cut_along_z({}, {}, mesh_surface);
+  const SurfaceParts parts = split_surface(mesh_surface);
   ASSERT_EQ(parts.bodies.size(), 1U);
   EXPECT_EQ(std::get<ConvexSolid>(parts.bodies[0].kind).faces().size(), 14U);
 }
 
-TEST(RoundSkin, OfATubeIsACylinderAndItsWallAnError) {
+TEST(RoundSurface, OfATubeIsACylinderAndItsWallAnError) {
   std::vector<Ring> profile;
   for (int i = 0; i <= 5; ++i) profile.push_back({-0.1 + 0.04 * i, 0.02});
   for (int i = 0; i <= 5; ++i) profile.push_back({0.1 - 0.04 * i, 0.015});
   profile.push_back(profile.front());
-  auto skin = revolve(profile, 32);
-  cut_along_z({0.01}, {}, skin);
-  const SkinParts parts = split_skin(skin);
+  auto mesh_surface = revolve(profile, 32);
+  cut_along_z({0.01}, {}, mesh_surface);
+  const SurfaceParts parts = split_surface(mesh_surface);
   ASSERT_EQ(parts.bodies.size(), 2U);
   EXPECT_NE(std::get_if<Cylinder>(&parts.bodies[0].kind), nullptr);
   EXPECT_NEAR(parts.error, 0.005, 1e-9);
 }
 
-TEST(RoundSkin, OfACapsuleAndABallAreThese) {
-  auto skin = revolve(make_capsule(0.02, 0.06, true), 32, kTurned);
-  cut_along_z({}, kTurned, skin);
-  const SkinParts whole = split_skin(skin);
+TEST(RoundSurface, OfACapsuleAndABallAreThese) {
+  auto mesh_surface = revolve(make_capsule(0.02, 0.06, true), 32, kTurned);
+  cut_along_z({}, kTurned, mesh_surface);
+  const SurfaceParts whole = split_surface(mesh_surface);
   ASSERT_EQ(whole.bodies.size(), 1U);
   const auto* capsule = std::get_if<Capsule>(&whole.bodies[0].kind);
   ASSERT_NE(capsule, nullptr);
@@ -183,7 +184,7 @@ TEST(RoundSkin, OfACapsuleAndABallAreThese) {
   }
   auto ball = revolve(profile, 32, kTurned);
   cut_along_z({}, kTurned, ball);
-  const SkinParts parts = split_skin(ball);
+  const SurfaceParts parts = split_surface(ball);
   ASSERT_EQ(parts.bodies.size(), 1U);
   const auto* sphere = std::get_if<Sphere>(&parts.bodies[0].kind);
   ASSERT_NE(sphere, nullptr);
@@ -192,10 +193,10 @@ TEST(RoundSkin, OfACapsuleAndABallAreThese) {
 }
 
 // A finger: a cylinder, and at its tip a capsule that goes on into it.
-TEST(RoundSkin, OfAFingerIsRoundAtItsTip) {
-  auto skin = revolve(make_capsule(0.02, 0.06, false), 32, kTurned);
-  cut_along_z({0.0}, kTurned, skin);
-  const SkinParts parts = split_skin(skin);
+TEST(RoundSurface, OfAFingerIsRoundAtItsTip) {
+  auto mesh_surface = revolve(make_capsule(0.02, 0.06, false), 32, kTurned);
+  cut_along_z({0.0}, kTurned, mesh_surface);
+  const SurfaceParts parts = split_surface(mesh_surface);
   ASSERT_EQ(parts.bodies.size(), 2U);
   EXPECT_LT(parts.error, 1e-9);
   const auto* rod = std::get_if<Cylinder>(&parts.bodies[0].kind);
@@ -209,16 +210,16 @@ TEST(RoundSkin, OfAFingerIsRoundAtItsTip) {
 
 // An egg is none of these: a hull of few faces, no farther out than its
 // error says.
-TEST(RoundSkin, OfAnEggIsAHull) {
+TEST(RoundSurface, OfAnEggIsAHull) {
   std::vector<Ring> profile;
   for (int i = 0; i <= 24; ++i) {
     const double a = pi * i / 24;
     profile.push_back(
         {-0.05 * std::cos(a), i % 24 == 0 ? 0.0 : 0.03 * std::sin(a)});
   }
-  auto skin = revolve(profile, 48);
-  cut_along_z({0.0}, {}, skin);
-  const SkinParts parts = split_skin(skin);
+  auto mesh_surface = revolve(profile, 48);
+  cut_along_z({0.0}, {}, mesh_surface);
+  const SurfaceParts parts = split_surface(mesh_surface);
   ASSERT_EQ(parts.bodies.size(), 2U);
   EXPECT_GT(parts.error, 1e-5);
   EXPECT_LT(parts.error, 2e-3);
@@ -233,16 +234,16 @@ TEST(RoundSkin, OfAnEggIsAHull) {
 }
 
 // A surface of slices that are not across its axis.
-TEST(RoundSkin, CutAlongItsAxisIsAHull) {
-  auto skin = revolve(make_rod(0.05, 0.005, 1), 48);
+TEST(RoundSurface, CutAlongItsAxisIsAHull) {
+  auto mesh_surface = revolve(make_rod(0.05, 0.005, 1), 48);
   flexbody::ContactSlice half;
   half.motion_B.resize(6, 0);
   half.normals_B = Vector3::UnitX();
   half.heights = VectorX::Zero(1);
-  skin.slices.push_back(half);
+  mesh_surface.slices.push_back(half);
   half.normals_B = -Vector3::UnitX();
-  skin.slices.push_back(half);
-  const SkinParts parts = split_skin(skin);
+  mesh_surface.slices.push_back(half);
+  const SurfaceParts parts = split_surface(mesh_surface);
   ASSERT_EQ(parts.bodies.size(), 2U);
   EXPECT_LT(parts.error, 1e-9);
   double volume = 0.0;
@@ -253,9 +254,9 @@ TEST(RoundSkin, CutAlongItsAxisIsAHull) {
   EXPECT_NEAR(volume / facets, 1.0, 1e-6);
 }
 
-ContactSide make_side(const flexbody::ContactSurface& skin) {
-  SkinParts parts = split_skin(skin);
-  return {.shape = {std::make_shared<const Skin>(skin), {}},
+ContactSide make_side(const flexbody::ContactSurface& mesh_surface) {
+  SurfaceParts parts = split_surface(mesh_surface);
+  return {.shape = {std::make_shared<const MeshSurface>(mesh_surface), {}},
           .material = SurfaceMaterial{kModulus, 0.3},
           .mass = 1.0,
           .inertia_B = Matrix3::Identity(),
@@ -285,19 +286,19 @@ Sum evaluate(const PatchPair& pair, const PairBody& A, const PairBody& B) {
   return sum;
 }
 
-flexbody::ContactSurface make_rod_skin(const std::vector<double>& at) {
-  auto skin = revolve(make_rod(0.02, 0.1, 10), 32);
-  cut_along_z(at, {}, skin);
-  return skin;
+flexbody::ContactSurface make_rod_surface(const std::vector<double>& at) {
+  auto mesh_surface = revolve(make_rod(0.02, 0.1, 10), 32);
+  cut_along_z(at, {}, mesh_surface);
+  return mesh_surface;
 }
 
 const double kEffective = kModulus / (2.0 * (1.0 - 0.09));  // E*
 
 // Crossed at the middle of a slice: a ball of the same radius on a plane.
-TEST(RoundSkin, CrossedIsHertz) {
+TEST(RoundSurface, CrossedIsHertz) {
   const double d = 2e-6;
-  const auto skin = make_rod_skin({-0.03, 0.04});
-  const PatchPair pair(make_side(skin), make_side(skin), {});
+  const auto mesh_surface = make_rod_surface({-0.03, 0.04});
+  const PatchPair pair(make_side(mesh_surface), make_side(mesh_surface), {});
   const PairBody A;
   const PairBody B{exp_rotation({0.0, 0.5 * pi, 0.0}),
                    Vector3(-0.005, 0.04 - d, 0.005)};
@@ -312,7 +313,7 @@ TEST(RoundSkin, CrossedIsHertz) {
 // N by depth of a line [johnson1985, 5.3 and 10], of length 0.2 as a
 // rectangle's mean: d = (2 N / (pi L E*)) (ln(2 L / b) + 1/2), b^2 = 4 N R /
 // (pi L E*).
-TEST(RoundSkin, AlongAnotherIsALineOfContact) {
+TEST(RoundSurface, AlongAnotherIsALineOfContact) {
   const double L = 0.2;
   for (const double d : {1e-6, 1e-5}) {
     double low = 0.0;
@@ -326,9 +327,9 @@ TEST(RoundSkin, AlongAnotherIsALineOfContact) {
     }
     for (const std::vector<double>& at :
          {std::vector<double>{}, {0.0}, {-0.05, 0.0, 0.05}}) {
-      const auto skin = make_rod_skin(at);
-      const PatchPair pair(make_side(skin), make_rigid(Cylinder{0.02, 0.1}),
-                           {});
+      const auto mesh_surface = make_rod_surface(at);
+      const PatchPair pair(make_side(mesh_surface),
+                           make_rigid(Cylinder{0.02, 0.1}), {});
       const PairBody B{Matrix3::Identity(), Vector3(0.04 - d, 0.0, 0.0)};
       const Sum sum = evaluate(pair, {}, B);
       const double ratio = sum.force.norm() / low;
@@ -342,7 +343,7 @@ TEST(RoundSkin, AlongAnotherIsALineOfContact) {
 
 // Of one slice it is the same as the shape; of several, where one alone
 // touches.
-TEST(RoundSkin, TouchesAsTheCylinder) {
+TEST(RoundSurface, TouchesAsTheCylinder) {
   const std::vector<std::pair<ShapeKind, PairBody>> others{
       {Box{{0.05, 0.04, 0.03}},
        {exp_rotation({0.1, 0.2, 0.3}), Vector3(0.068, 0.0, -0.08)}},
@@ -355,7 +356,7 @@ TEST(RoundSkin, TouchesAsTheCylinder) {
                           {});
     const Sum expected = evaluate(rigid, {}, B);
     EXPECT_GT(expected.energy, 0.0);
-    const PatchPair pair(make_side(make_rod_skin({})), make_rigid(kind), {});
+    const PatchPair pair(make_side(make_rod_surface({})), make_rigid(kind), {});
     const Sum sum = evaluate(pair, {}, B);
     EXPECT_NEAR(sum.energy / expected.energy, 1.0, 1e-5);
     EXPECT_LT((sum.force - expected.force).norm(),
@@ -369,4 +370,4 @@ TEST(RoundSkin, TouchesAsTheCylinder) {
 }
 
 }  // namespace
-}  // namespace limber::contact::round_skin_test
+}  // namespace limber::contact::round_surface_test

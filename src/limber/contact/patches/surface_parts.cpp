@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/skin_parts.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "limber/contact/patches/skin_slice.hpp"
+#include "limber/contact/patches/surface_slice.hpp"
 #include "limber/contact/potential/mesh_parts.hpp"
 
 namespace limber::contact {
@@ -35,7 +35,7 @@ std::optional<ConvexSolid> cut_out(const ConvexSolid& solid,
 }
 
 // @return whether there are not too many
-bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
+bool add_solids(const flexbody::ContactSurface& surface, SurfaceParts& out) {
   for (const ConvexSolid& solid : split_mesh(surface.x_B, surface.faces)) {
     for (std::size_t i = 0; i < surface.slices.size(); ++i) {
       auto part = cut_out(solid, surface.slices[i]);
@@ -43,17 +43,17 @@ bool add_solids(const flexbody::ContactSurface& surface, SkinParts& out) {
       out.bodies.push_back({std::move(*part), Pose{}});
       out.slices.push_back(i);
     }
-    if (out.bodies.size() > kMostSkinParts) return false;
+    if (out.bodies.size() > kMostSurfaceParts) return false;
   }
   return !out.bodies.empty();
 }
 
 // One of each slice that has facets.
 void add_bodies(const flexbody::ContactSurface& surface,
-                const std::vector<SkinFacet>& facets, SkinParts& out) {
+                const std::vector<SurfaceFacet>& facets, SurfaceParts& out) {
   const std::vector<bool> is_exact = find_exact_nodes(surface);
   for (std::size_t i = 0; i < surface.slices.size(); ++i) {
-    const SkinSlice slice(surface, facets, is_exact, surface.slices[i]);
+    const SurfaceSlice slice(surface, facets, is_exact, surface.slices[i]);
     auto found = find_round_body(slice);
     if (!found) found = find_hull(slice);
     if (!found) continue;
@@ -72,14 +72,14 @@ class MeshCover {
         facets_(find_facets(mesh)),
         is_exact_(find_exact_nodes(mesh)) {}
 
-  SkinParts run() {
+  SurfaceParts run() {
     constexpr double kClose = 1e-3;  // of the mesh's size
     const Vector3 low = mesh_.x_B.rowwise().minCoeff();
     const Vector3 high = mesh_.x_B.rowwise().maxCoeff();
     flexbody::ContactSlice whole;
     whole.normals_B.resize(3, 0);
     add({low, high, std::move(whole), {}});
-    while (!boxes_.empty() && boxes_.size() < kMostSkinParts) {
+    while (!boxes_.empty() && boxes_.size() < kMostSurfaceParts) {
       const auto worst = std::ranges::max_element(
           boxes_, {}, [](const Box& box) { return box.hull->error; });
       if (worst->hull->error <= kClose * (high - low).norm()) break;
@@ -90,7 +90,7 @@ class MeshCover {
       add(halve(box, axis, 1.0));
       add(halve(box, axis, -1.0));
     }
-    SkinParts out;
+    SurfaceParts out;
     for (const Box& box : boxes_) {
       out.bodies.push_back(box.hull->body);
       out.error = std::max(out.error, box.hull->error);
@@ -120,29 +120,29 @@ class MeshCover {
 
   // Unless nothing of the surface is in it.
   void add(Box box) {
-    box.hull = find_hull(SkinSlice(mesh_, facets_, is_exact_, box.planes));
+    box.hull = find_hull(SurfaceSlice(mesh_, facets_, is_exact_, box.planes));
     if (box.hull) boxes_.push_back(std::move(box));
   }
 
   const flexbody::ContactSurface& mesh_;
-  std::vector<SkinFacet> facets_;
+  std::vector<SurfaceFacet> facets_;
   std::vector<bool> is_exact_;
   std::vector<Box> boxes_;
 };
 
 }  // namespace
 
-SkinParts split_skin(const flexbody::ContactSurface& surface) {
-  SkinParts out;
+SurfaceParts split_surface(const flexbody::ContactSurface& surface) {
+  SurfaceParts out;
   if (surface.slices.empty()) return out;
-  const std::vector<SkinFacet> facets = find_facets(surface);
+  const std::vector<SurfaceFacet> facets = find_facets(surface);
   if (is_polyhedral(facets) && add_solids(surface, out)) return out;
   out = {};
   add_bodies(surface, facets, out);
   return out;
 }
 
-SkinParts cover_mesh(const flexbody::ContactSurface& mesh) {
+SurfaceParts cover_mesh(const flexbody::ContactSurface& mesh) {
   return MeshCover(mesh).run();
 }
 

@@ -15,7 +15,7 @@ namespace limber::joints {
 /// Source     the constraint of a universal joint's cross, with compliance
 /// Limits     the moment varies as sin(2 x) with the tilt x of b towards a: a
 ///            tilt of pi / 2 is an unstable equilibrium.
-class UniversalHold {
+class UniversalConstraint {
  public:
   struct Parameters {
     Vector3 axis_F = Vector3::UnitX();     ///< a, normalised [-]
@@ -28,7 +28,7 @@ class UniversalHold {
 
   /// @throws InputError if the axes are not normal to each other, or a value
   /// is outside its range.
-  explicit UniversalHold(const Parameters& parameters);
+  explicit UniversalConstraint(const Parameters& parameters);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion) const;
@@ -39,7 +39,7 @@ class UniversalHold {
   Parameters parameters_;
 };
 
-constexpr auto fields_of(const UniversalHold::Parameters*) {
+constexpr auto fields_of(const UniversalConstraint::Parameters*) {
   return list_fields(
       "universal joint", "axis of F", "axis of M",
       "translational stiffness [N/m]", "rotational stiffness [N m/rad]",
@@ -48,9 +48,10 @@ constexpr auto fields_of(const UniversalHold::Parameters*) {
 
 /// Stiffness and deflection: the distance of the origins, and the sine s as the
 /// angle.
-[[nodiscard]] HoldStiffness find_hold_stiffness(const UniversalHold& hold);
-[[nodiscard]] HoldGive find_give(const UniversalHold& hold,
-                                 const HoldStiffness& stiffness,
-                                 const RelativeMotion& motion);
+[[nodiscard]] ConstraintStiffness find_constraint_stiffness(
+    const UniversalConstraint& constraint);
+[[nodiscard]] ConstraintDeflection find_deflection(
+    const UniversalConstraint& constraint, const ConstraintStiffness& stiffness,
+    const RelativeMotion& motion);
 
 }  // namespace limber::joints

@@ -6,28 +6,29 @@
 
 #include "limber/contact/patches/contact_side.hpp"
 #include "limber/contact/patches/patch_finder.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 namespace limber::contact {
 
-/// A ball on the surface of a flexible body, which touch at one point.
+/// A sphere on the surface of a flexible body, in contact at one point.
 ///
 /// Equation   HertzLaw with k = 4/3 E* sqrt(R_e), 1 / R_e = 1 / r + the mean
 ///            curvature of the surface >= 1 / find_roundness, and its residual
 ///            flexibility, all at the place nearest to the ball's centre; the
 ///            patch moves with the body and the modes there
-/// Limits     the tangent takes the normal as constant; the turn of the surface
+/// Limits     the tangent takes the normal as constant; the rotation of the
+/// surface
 ///            by the modes is left out of friction and damping
-class BallOnSkin final : public PatchFinder {
+class BallOnSurface final : public PatchFinder {
  public:
   /// @param modulus E* > 0 [Pa] @param radius R_e in place of that above [m]
   /// @throws ContractError unless suits(A, B) or suits(B, A).
-  BallOnSkin(const ContactSide& A, const ContactSide& B, double modulus,
-             std::optional<double> radius);
+  BallOnSurface(const ContactSide& A, const ContactSide& B, double modulus,
+                std::optional<double> radius);
 
-  /// @param skin of a flexible body, not a rigid mesh
+  /// @param surface of a flexible body, not a rigid mesh
   [[nodiscard]] static bool suits(const ContactSide& ball,
-                                  const ContactSide& skin);
+                                  const ContactSide& mesh_surface);
 
   [[nodiscard]] std::size_t count() const override { return 1; }
   [[nodiscard]] bool is_point() const override { return true; }
@@ -55,20 +56,20 @@ class BallOnSkin final : public PatchFinder {
  private:
   [[nodiscard]] const joints::PairBody& find_body(
       const joints::PairBodies& bodies) const {
-    return is_skin_A_ ? bodies.A : bodies.B;
+    return is_surface_A_ ? bodies.A : bodies.B;
   }
   [[nodiscard]] Vector3 find_centre_W(const joints::PairBodies& bodies) const;
-  [[nodiscard]] std::optional<Skin::Hit> find_hit(
+  [[nodiscard]] std::optional<MeshSurface::Hit> find_hit(
       const joints::PairBodies& bodies, double reach) const;
   [[nodiscard]] joints::PairBody find_motion(const joints::PairBody& body,
                                              const SurfacePlace& place) const;
   void set_frames(const joints::PairBodies& bodies, const SurfacePlace& place,
                   joints::PairBody& A, joints::PairBody& B) const;
   [[nodiscard]] Patch press(const joints::PairBody& body,
-                            const Skin::Hit& hit) const;
+                            const MeshSurface::Hit& hit) const;
 
-  bool is_skin_A_;
-  std::shared_ptr<const Skin> skin_;
+  bool is_surface_A_;
+  std::shared_ptr<const MeshSurface> mesh_surface_;
   double ball_radius_;            // [m]
   Vector3 centre_B_;              // of the ball, in its body's frame [m]
   double modulus_;                // E* [Pa]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/ball_on_skin.hpp"
+#include "limber/contact/patches/ball_on_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// A ball on a surface that modes deform.
-namespace limber::contact::ball_on_skin_test {
+namespace limber::contact::ball_on_surface_test {
 namespace {
 
 constexpr double kModulus = 1e9;
@@ -19,8 +19,8 @@ constexpr double kResidual = 3e-8;
 constexpr double kSize = 0.8;    // of the flexible body
 constexpr double kRadius = 0.3;  // of the ball
 
-ContactSide make_skin(const flexbody::ContactSurface& surface) {
-  return {Shape{std::make_shared<const Skin>(surface), {}}, {}, 1.0};
+ContactSide make_mesh_surface(const flexbody::ContactSurface& surface) {
+  return {Shape{std::make_shared<const MeshSurface>(surface), {}}, {}, 1.0};
 }
 
 flexbody::ContactSurface make_surface() {
@@ -48,13 +48,14 @@ VectorX draw_modes(std::mt19937& random) {
 }
 
 // By the displacements of both points, with names either way.
-TEST(BallOnSkin, ActsOnMotionsAndModesAsItsEnergyFalls) {
+TEST(BallOnSurface, ActsOnMotionsAndModesAsItsEnergyFalls) {
   std::mt19937 random(1);
-  const ContactSide skin = make_skin(make_surface());
+  const ContactSide mesh_surface = make_mesh_surface(make_surface());
   const ContactSide ball = make_ball(kRadius);
-  for (const bool is_skin_A : {true, false}) {
-    const BallOnSkin pair = is_skin_A ? BallOnSkin(skin, ball, kModulus, {})
-                                      : BallOnSkin(ball, skin, kModulus, {});
+  for (const bool is_surface_A : {true, false}) {
+    const BallOnSurface pair =
+        is_surface_A ? BallOnSurface(mesh_surface, ball, kModulus, {})
+                     : BallOnSurface(ball, mesh_surface, kModulus, {});
     for (int trial = 0; trial < 10; ++trial) {
       const VectorX eta = 0.01 * draw_modes(random);
       const VectorX d_eta = draw_modes(random);
@@ -67,7 +68,7 @@ TEST(BallOnSkin, ActsOnMotionsAndModesAsItsEnergyFalls) {
         joints::PairBody other = round;
         other.p_WB += by * d_p;
         const joints::PairBody body = make_body(moved);
-        const joints::PairBodies bodies = is_skin_A
+        const joints::PairBodies bodies = is_surface_A
                                               ? joints::PairBodies{body, other}
                                               : joints::PairBodies{other, body};
         const PatchTouches found = pair.find_patches(bodies, true);
@@ -80,17 +81,17 @@ TEST(BallOnSkin, ActsOnMotionsAndModesAsItsEnergyFalls) {
           (touch(kStep).patch.energy - touch(-kStep).patch.energy) /
           (2.0 * kStep);
       joints::PairPoint point;
-      (is_skin_A ? point.on_A : point.on_B).Phi_B = Matrix3X::Zero(3, 4);
+      (is_surface_A ? point.on_A : point.on_B).Phi_B = Matrix3X::Zero(3, 4);
       const joints::PairBody body = make_body(eta);
-      const joints::PairBodies bodies = is_skin_A
+      const joints::PairBodies bodies = is_surface_A
                                             ? joints::PairBodies{body, round}
                                             : joints::PairBodies{round, body};
       pair.set_places(bodies, at, at.patch.centre_W, point);
       const Vector3 force_on_B = -at.patch.gradient_W.head<3>();
-      const Matrix3X& Phi = (is_skin_A ? point.on_A : point.on_B).Phi_B;
-      const Vector3 way = (is_skin_A ? 1.0 : -1.0) * (d_p - Phi * d_eta);
+      const Matrix3X& Phi = (is_surface_A ? point.on_A : point.on_B).Phi_B;
+      const Vector3 way = (is_surface_A ? 1.0 : -1.0) * (d_p - Phi * d_eta);
       EXPECT_NEAR(force_on_B.dot(way), -slope, 2e-3 * std::abs(slope)) << trial;
-      EXPECT_LT((find_position(body, is_skin_A ? point.on_A : point.on_B) -
+      EXPECT_LT((find_position(body, is_surface_A ? point.on_A : point.on_B) -
                  at.patch.centre_W)
                     .norm(),
                 1e-13);
@@ -98,10 +99,11 @@ TEST(BallOnSkin, ActsOnMotionsAndModesAsItsEnergyFalls) {
   }
 }
 
-TEST(BallOnSkin, PressesAsHertzInSeriesWithTheResidual) {
+TEST(BallOnSurface, PressesAsHertzInSeriesWithTheResidual) {
   auto surface = make_surface();
   surface.Phi_B.resize(surface.Phi_B.rows(), 0);
-  const BallOnSkin pair(make_skin(surface), make_ball(kRadius), kModulus, {});
+  const BallOnSurface pair(make_mesh_surface(surface), make_ball(kRadius),
+                           kModulus, {});
   joints::PairBody ball;
   constexpr double kDepth = 1e-3;
   ball.p_WB = Vector3(0.0, 0.0, kSize + kRadius - kDepth);
@@ -117,11 +119,11 @@ TEST(BallOnSkin, PressesAsHertzInSeriesWithTheResidual) {
 }
 
 // In a hollow of its own curvature R_e would be infinite.
-TEST(BallOnSkin, IsNoFlatterThanItsSurfacesPatchesInAHollow) {
+TEST(BallOnSurface, IsNoFlatterThanItsSurfacesPatchesInAHollow) {
   const auto hollow = test::make_sheet_surface(
       0.5, 4, true, [](double x, double y) { return x * x + y * y; });
-  const ContactSide skin = make_skin(hollow);
-  const BallOnSkin pair(skin, make_ball(0.5), kModulus, {});
+  const ContactSide mesh_surface = make_mesh_surface(hollow);
+  const BallOnSurface pair(mesh_surface, make_ball(0.5), kModulus, {});
   joints::PairBody ball;
   ball.p_WB = Vector3(0.0, 0.0, 0.5 - 1e-4);
   const PatchTouches touches = pair.find_patches({{}, ball}, true);
@@ -131,9 +133,9 @@ TEST(BallOnSkin, IsNoFlatterThanItsSurfacesPatchesInAHollow) {
   EXPECT_GT(patch->load(), 0.0);
 }
 
-TEST(BallOnSkin, IsAsFarAsItsNearestPlace) {
-  const BallOnSkin pair(make_skin(make_surface()), make_ball(kRadius), kModulus,
-                        {});
+TEST(BallOnSurface, IsAsFarAsItsNearestPlace) {
+  const BallOnSurface pair(make_mesh_surface(make_surface()),
+                           make_ball(kRadius), kModulus, {});
   const VectorX eta = VectorX::Zero(4);
   const joints::PairBody body = make_body(eta);
   joints::PairBody ball;
@@ -152,4 +154,4 @@ TEST(BallOnSkin, IsAsFarAsItsNearestPlace) {
 }
 
 }  // namespace
-}  // namespace limber::contact::ball_on_skin_test
+}  // namespace limber::contact::ball_on_surface_test

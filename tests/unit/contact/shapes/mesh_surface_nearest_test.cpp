@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact::skin_nearest_test {
+namespace limber::contact::surface_nearest_test {
 namespace {
 
 using test::view;
@@ -21,47 +21,48 @@ VectorX draw_eta(std::mt19937& random, double scale) {
          });
 }
 
-Skin make_flexible_ball(int subdivisions, bool quadratic) {
+MeshSurface make_flexible_ball(int subdivisions, bool quadratic) {
   auto surface = test::make_ball_surface(0.8, subdivisions, quadratic);
   test::set_modes(surface, test::make_fields());
-  return Skin(surface);
+  return MeshSurface(surface);
 }
 
 // Of the deformed faces, by a grid of each.
-double find_least_distance(const Skin& skin, const VectorX& eta,
+double find_least_distance(const MeshSurface& mesh_surface, const VectorX& eta,
                            const Vector3& p, int cells) {
   double least = 1e9;
-  for (std::size_t f = 0; f < skin.surface().faces.size(); ++f) {
+  for (std::size_t f = 0; f < mesh_surface.surface().faces.size(); ++f) {
     for (int i = 0; i <= cells; ++i) {
       for (int j = 0; i + j <= cells; ++j) {
         const SurfacePlace place{.face = static_cast<int>(f),
                                  .u = static_cast<double>(i) / cells,
                                  .v = static_cast<double>(j) / cells};
-        least =
-            std::min(least, (skin.find_position(place, view(eta)) - p).norm());
+        least = std::min(
+            least, (mesh_surface.find_position(place, view(eta)) - p).norm());
       }
     }
   }
   return least;
 }
 
-TEST(SkinNearest, IsTheNearestOfAllDeformedFaces) {
+TEST(SurfaceNearest, IsTheNearestOfAllDeformedFaces) {
   std::mt19937 random(1);
   for (const bool quadratic : {false, true}) {
-    const Skin skin = make_flexible_ball(1, quadratic);
+    const MeshSurface mesh_surface = make_flexible_ball(1, quadratic);
     for (int i = 0; i < 20; ++i) {
       const VectorX eta = draw_eta(random, 0.2);
       const Vector3 p = test::draw_point(random, 1.2);
-      const auto hit = skin.find_nearest(p, view(eta), kFar, kFar);
+      const auto hit = mesh_surface.find_nearest(p, view(eta), kFar, kFar);
       ASSERT_TRUE(hit.has_value());
-      const double least = find_least_distance(skin, eta, p, 24);
+      const double least = find_least_distance(mesh_surface, eta, p, 24);
       EXPECT_LE(std::abs(hit->nearest.distance), least + 1e-12);
       EXPECT_GE(std::abs(hit->nearest.distance), least - 0.02);
       EXPECT_LT(
           (hit->nearest.point + hit->nearest.distance * hit->nearest.normal - p)
               .norm(),
           1e-12);
-      EXPECT_LT((skin.find_position(hit->place, view(eta)) - hit->nearest.point)
+      EXPECT_LT((mesh_surface.find_position(hit->place, view(eta)) -
+                 hit->nearest.point)
                     .norm(),
                 1e-14);
     }
@@ -70,7 +71,7 @@ TEST(SkinNearest, IsTheNearestOfAllDeformedFaces) {
 
 // Distances of a box are known in closed form, and most points near one are
 // nearest to its edges and corners.
-TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
+TEST(SurfaceNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
   const Vector3 half(0.3, 0.5, 0.4);
   std::mt19937 random(2);
   for (const bool quadratic : {false, true}) {
@@ -78,19 +79,20 @@ TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
     test::set_modes(surface,
                     {[](const Vector3& x) { return Vector3(x.x(), 0, 0); },
                      [](const Vector3& x) { return Vector3(0, 0, x.z()); }});
-    const Skin skin(surface);
-    EXPECT_TRUE(skin.is_closed());
+    const MeshSurface mesh_surface(surface);
+    EXPECT_TRUE(mesh_surface.is_closed());
     for (int i = 0; i < 300; ++i) {
       const VectorX eta = draw_eta(random, 0.3).head(2);
       const Vector3 box =
           half.cwiseProduct(Vector3(1.0 + eta[0], 1.0, 1.0 + eta[1]));
       const Vector3 p = test::draw_point(random, 0.8);
-      const Skin::NearestPoint expected = test::find_nearest_of_box(box, p);
-      const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
+      const MeshSurface::NearestPoint expected =
+          test::find_nearest_of_box(box, p);
+      const auto hit = mesh_surface.find_nearest(p, view(eta), kFar, 0.0);
       ASSERT_TRUE(hit.has_value());
       EXPECT_NEAR(hit->nearest.distance, expected.distance, 1e-13);
       EXPECT_LT((hit->nearest.normal - expected.normal).norm(), 1e-9);
-      EXPECT_NEAR(skin.find_clearance(p, 0.1, view(eta)),
+      EXPECT_NEAR(mesh_surface.find_clearance(p, 0.1, view(eta)),
                   expected.distance - 0.1, 1e-13);
     }
   }
@@ -98,16 +100,16 @@ TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
 
 // Straight above corners, edges and their ends in every direction between the
 // normals of the faces.
-TEST(SkinNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
-  const Skin skin(test::make_box_surface({1, 1, 1}, 2, true));
+TEST(SurfaceNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
+  const MeshSurface mesh_surface(test::make_box_surface({1, 1, 1}, 2, true));
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
     Vector3 away = test::draw_point(random, 1.0).cwiseAbs();
     Vector3 x(1.0, 1.0, 0.5 * (i % 3));  // an edge, and its ends
     if (i % 3 < 2) away.z() = 0.0;
     const double distance = 0.01 + 0.1 * (i % 7);
-    const auto hit = skin.find_nearest(x + distance * away.normalized(),
-                                       view(kStill), kFar, 0.0);
+    const auto hit = mesh_surface.find_nearest(x + distance * away.normalized(),
+                                               view(kStill), kFar, 0.0);
     ASSERT_TRUE(hit.has_value());
     EXPECT_NEAR(hit->nearest.distance, distance, 1e-13);
     EXPECT_LT((hit->nearest.normal - away.normalized()).norm(), 1e-10);
@@ -117,13 +119,13 @@ TEST(SkinNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
 // A box sheared to sharp edges and corners, where a point outside is behind
 // some of the faces that it is nearest to. What is inside the box follows from
 // undoing the shear.
-TEST(SkinNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
+TEST(SurfaceNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
   const Vector3 half(0.3, 0.3, 0.3);
   auto surface = test::make_box_surface(half, 2, true);
   test::set_modes(surface,
                   {[](const Vector3& x) { return Vector3(x.z(), 0, 0); },
                    [](const Vector3& x) { return Vector3(0, x.z(), 0); }});
-  const Skin skin(surface);
+  const MeshSurface mesh_surface(surface);
   std::mt19937 random(8);
   int inside = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -131,7 +133,7 @@ TEST(SkinNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
     const Vector3 p = test::draw_point(random, 1.5);
     const Vector3 x = p - p.z() * Vector3(eta[0], eta[1], 0.0);
     const bool is_inside = (x.cwiseAbs().array() < half.array()).all();
-    const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
+    const auto hit = mesh_surface.find_nearest(p, view(eta), kFar, 0.0);
     ASSERT_TRUE(hit.has_value());
     EXPECT_EQ(hit->nearest.distance < 0.0, is_inside) << p.transpose();
     inside += is_inside ? 1 : 0;
@@ -140,10 +142,10 @@ TEST(SkinNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
 }
 
 // The distance from any surface changes by at most the way of the point.
-TEST(SkinNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
+TEST(SurfaceNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
   constexpr double kStep = 1e-3;
   std::mt19937 random(4);
-  const Skin skin = make_flexible_ball(1, true);
+  const MeshSurface mesh_surface = make_flexible_ball(1, true);
   for (int path = 0; path < 4; ++path) {
     const VectorX eta = draw_eta(random, 0.05);
     const Matrix3 R = test::draw_rotation(random);
@@ -154,7 +156,7 @@ TEST(SkinNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
     for (int i = 0; i < 3000; ++i) {
       const double angle = i * kStep;
       const Vector3 p = R * Vector3(std::cos(angle), std::sin(angle), 0.0);
-      const auto hit = skin.find_nearest(p, view(eta), 1.0, 0.0);
+      const auto hit = mesh_surface.find_nearest(p, view(eta), 1.0, 0.0);
       ASSERT_TRUE(hit.has_value());
       if (i > 0) {
         EXPECT_LE(std::abs(hit->nearest.distance - last), kStep);
@@ -172,18 +174,19 @@ TEST(SkinNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
   }
 }
 
-TEST(SkinNearest, QuadraticFacesOfABallHaveItsRadiusAndCurvature) {
+TEST(SurfaceNearest, QuadraticFacesOfABallHaveItsRadiusAndCurvature) {
   constexpr double kRadius = 0.8;
   std::mt19937 random(5);
   double last_error = 1.0;
   double last_bend_error = 1.0;
   for (int subdivisions = 1; subdivisions <= 3; ++subdivisions) {
-    const Skin skin(test::make_ball_surface(kRadius, subdivisions, true));
+    const MeshSurface mesh_surface(
+        test::make_ball_surface(kRadius, subdivisions, true));
     double error = 0.0;
     double bend_error = 0.0;
     for (int i = 0; i < 100; ++i) {
       const Vector3 p = 1.1 * test::draw_point(random, 1.0).normalized();
-      const auto hit = skin.find_nearest(p, view(kStill), 1.0, 0.0);
+      const auto hit = mesh_surface.find_nearest(p, view(kStill), 1.0, 0.0);
       ASSERT_TRUE(hit.has_value());
       error = std::max(error, std::abs(hit->nearest.distance - 0.3));
       bend_error = std::max(bend_error,
@@ -200,17 +203,17 @@ TEST(SkinNearest, QuadraticFacesOfABallHaveItsRadiusAndCurvature) {
   EXPECT_LT(last_bend_error, 0.05);
 }
 
-TEST(SkinNearest, DistanceChangesAsTheModesMoveThePlace) {
+TEST(SurfaceNearest, DistanceChangesAsTheModesMoveThePlace) {
   constexpr double kStep = 1e-6;
   std::mt19937 random(6);
-  const Skin skin = make_flexible_ball(1, true);
+  const MeshSurface mesh_surface = make_flexible_ball(1, true);
   Matrix3X Phi(3, 4);
   for (int i = 0; i < 20; ++i) {
     const VectorX eta = draw_eta(random, 0.1);
     const Vector3 p = test::draw_point(random, 1.0).normalized();
-    const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
+    const auto hit = mesh_surface.find_nearest(p, view(eta), kFar, 0.0);
     ASSERT_TRUE(hit.has_value());
-    skin.set_shape_functions(hit->place, Phi);
+    mesh_surface.set_shape_functions(hit->place, Phi);
     EXPECT_LT((hit->place.x_B + Phi * eta - hit->nearest.point).norm(), 1e-14);
     for (int k = 0; k < 4; ++k) {
       VectorX ahead = eta;
@@ -218,82 +221,87 @@ TEST(SkinNearest, DistanceChangesAsTheModesMoveThePlace) {
       ahead[k] += kStep;
       behind[k] -= kStep;
       const double slope =
-          (skin.find_nearest(p, view(ahead), kFar, 0.0)->nearest.distance -
-           skin.find_nearest(p, view(behind), kFar, 0.0)->nearest.distance) /
+          (mesh_surface.find_nearest(p, view(ahead), kFar, 0.0)
+               ->nearest.distance -
+           mesh_surface.find_nearest(p, view(behind), kFar, 0.0)
+               ->nearest.distance) /
           (2.0 * kStep);
       EXPECT_NEAR(slope, -hit->nearest.normal.dot(Phi.col(k)), 1e-8);
     }
   }
 }
 
-TEST(SkinNearest, BeyondTheBorderOfAnOpenSurfaceAllIsOutside) {
-  const Skin skin(test::make_sheet_surface(1.0, 4, true,
-                                           [](double, double) { return 0.0; }));
-  EXPECT_FALSE(skin.is_closed());
+TEST(SurfaceNearest, BeyondTheBorderOfAnOpenSurfaceAllIsOutside) {
+  const MeshSurface mesh_surface(test::make_sheet_surface(
+      1.0, 4, true, [](double, double) { return 0.0; }));
+  EXPECT_FALSE(mesh_surface.is_closed());
   for (const double height : {0.3, 0.0, -0.3}) {
     const auto hit =
-        skin.find_nearest({1.4, 0.2, height}, view(kStill), 1.0, 1.0);
+        mesh_surface.find_nearest({1.4, 0.2, height}, view(kStill), 1.0, 1.0);
     ASSERT_TRUE(hit.has_value());
     EXPECT_NEAR(hit->nearest.distance, std::hypot(0.4, height), 1e-14);
   }
 }
 
-TEST(SkinNearest, BehindAnOpenSurfaceIsInsideAsFarAsItsThickness) {
-  const Skin skin(test::make_sheet_surface(1.0, 4, false,
-                                           [](double, double) { return 0.0; }));
+TEST(SurfaceNearest, BehindAnOpenSurfaceIsInsideAsFarAsItsThickness) {
+  const MeshSurface mesh_surface(test::make_sheet_surface(
+      1.0, 4, false, [](double, double) { return 0.0; }));
   const auto hit =
-      skin.find_nearest({0.3, 0.2, -0.19}, view(kStill), 0.01, 0.2);
+      mesh_surface.find_nearest({0.3, 0.2, -0.19}, view(kStill), 0.01, 0.2);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->nearest.distance, -0.19, 1e-15);
   EXPECT_EQ(hit->nearest.normal, Vector3(0, 0, 1));
   EXPECT_FALSE(
-      skin.find_nearest({0.3, 0.2, -0.21}, view(kStill), 1.0, 0.2).has_value());
-  EXPECT_NEAR(skin.find_clearance({0.3, 0.2, -0.19}, 0.2, view(kStill)), -0.39,
-              1e-15);
-  EXPECT_NEAR(skin.find_clearance({0.3, 0.2, -0.5}, 0.2, view(kStill)), 0.3,
-              1e-15);
+      mesh_surface.find_nearest({0.3, 0.2, -0.21}, view(kStill), 1.0, 0.2)
+          .has_value());
+  EXPECT_NEAR(mesh_surface.find_clearance({0.3, 0.2, -0.19}, 0.2, view(kStill)),
+              -0.39, 1e-15);
+  EXPECT_NEAR(mesh_surface.find_clearance({0.3, 0.2, -0.5}, 0.2, view(kStill)),
+              0.3, 1e-15);
 }
 
-TEST(SkinNearest, DeepInsideAClosedSurfaceIsStillInside) {
-  const Skin skin(test::make_box_surface({1, 1, 1}, 2, false));
-  const auto hit = skin.find_nearest({0.1, 0.0, 0.0}, view(kStill), 1e-3, 1e-3);
+TEST(SurfaceNearest, DeepInsideAClosedSurfaceIsStillInside) {
+  const MeshSurface mesh_surface(test::make_box_surface({1, 1, 1}, 2, false));
+  const auto hit =
+      mesh_surface.find_nearest({0.1, 0.0, 0.0}, view(kStill), 1e-3, 1e-3);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->nearest.distance, -0.9, 1e-15);
 }
 
-TEST(SkinNearest, FartherThanItsReachThereIsNone) {
-  const Skin skin(test::make_box_surface({1, 1, 1}, 2, false));
-  EXPECT_TRUE(skin.find_nearest({1.09, 0, 0}, view(kStill), 0.1, 0.0));
-  EXPECT_FALSE(skin.find_nearest({1.11, 0, 0}, view(kStill), 0.1, 0.0));
-  EXPECT_FALSE(skin.find_nearest({50.0, 0, 0}, view(kStill), 0.1, 0.0));
+TEST(SurfaceNearest, FartherThanItsReachThereIsNone) {
+  const MeshSurface mesh_surface(test::make_box_surface({1, 1, 1}, 2, false));
+  EXPECT_TRUE(mesh_surface.find_nearest({1.09, 0, 0}, view(kStill), 0.1, 0.0));
+  EXPECT_FALSE(mesh_surface.find_nearest({1.11, 0, 0}, view(kStill), 0.1, 0.0));
+  EXPECT_FALSE(mesh_surface.find_nearest({50.0, 0, 0}, view(kStill), 0.1, 0.0));
 }
 
-TEST(SkinNearest, ClearanceFromFarAwayIsALowerBound) {
-  const Skin skin = make_flexible_ball(1, true);
+TEST(SurfaceNearest, ClearanceFromFarAwayIsALowerBound) {
+  const MeshSurface mesh_surface = make_flexible_ball(1, true);
   std::mt19937 random(7);
   for (int i = 0; i < 20; ++i) {
     const VectorX eta = draw_eta(random, 0.2);
     const Vector3 p = (2.0 + i) * test::draw_point(random, 1.0).normalized();
     const double distance =
-        skin.find_nearest(p, view(eta), kFar, 0.0)->nearest.distance;
-    const double clearance = skin.find_clearance(p, 0.1, view(eta));
+        mesh_surface.find_nearest(p, view(eta), kFar, 0.0)->nearest.distance;
+    const double clearance = mesh_surface.find_clearance(p, 0.1, view(eta));
     EXPECT_LE(clearance, distance - 0.1 + 1e-12);
     EXPECT_GT(clearance, 0.2 * distance - 0.3);
   }
 }
 
-TEST(SkinNearest, OfAStateThatIsNotFiniteIsNaN) {
-  const Skin skin = make_flexible_ball(0, true);
+TEST(SurfaceNearest, OfAStateThatIsNotFiniteIsNaN) {
+  const MeshSurface mesh_surface = make_flexible_ball(0, true);
   const VectorX still = VectorX::Zero(4);
   VectorX broken = still;
   broken[2] = std::nan("");
   const Vector3 p(0.9, 0, 0);
   EXPECT_TRUE(std::isnan(
-      skin.find_nearest(p, view(broken), 0.1, 0.1)->nearest.distance));
-  EXPECT_TRUE(std::isnan(skin.find_nearest(p * broken[2], view(still), 0.1, 0.1)
-                             ->nearest.distance));
-  EXPECT_TRUE(std::isnan(skin.find_clearance(p, 0.1, view(broken))));
+      mesh_surface.find_nearest(p, view(broken), 0.1, 0.1)->nearest.distance));
+  EXPECT_TRUE(std::isnan(
+      mesh_surface.find_nearest(p * broken[2], view(still), 0.1, 0.1)
+          ->nearest.distance));
+  EXPECT_TRUE(std::isnan(mesh_surface.find_clearance(p, 0.1, view(broken))));
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_nearest_test
+}  // namespace limber::contact::surface_nearest_test

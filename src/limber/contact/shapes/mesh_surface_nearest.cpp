@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 
 namespace limber::contact {
 namespace {
@@ -30,9 +30,8 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-std::optional<Skin::Candidate> Skin::search(const Vector3& p,
-                                            const ModalView& eta,
-                                            double most_square) const {
+std::optional<MeshSurface::Candidate> MeshSurface::search(
+    const Vector3& p, const ModalView& eta, double most_square) const {
   struct Entry {
     int node;
     double square;
@@ -51,13 +50,13 @@ std::optional<Skin::Candidate> Skin::search(const Vector3& p,
     const double found = (patch.find_point(at) - p).squaredNorm();
     if (found < best.square) best = {f, at, found};
   };
-  std::array<Entry, SkinTree::kMostLevels> stack{};
+  std::array<Entry, SurfaceTree::kMostLevels> stack{};
   std::size_t size = 0;
   stack[size++] = {0, tree_.find_box(0, eta).find_square_distance(p)};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.square >= best.square) continue;
-    const SkinTree::Node& node = tree_.node(entry.node);
+    const SurfaceTree::Node& node = tree_.node(entry.node);
     if (node.is_leaf()) {
       for (const int f : tree_.find_faces(node)) try_face(f);
       continue;
@@ -74,7 +73,7 @@ std::optional<Skin::Candidate> Skin::search(const Vector3& p,
   return best;
 }
 
-Vector3 Skin::sum_corner_normals(int node, const ModalView& eta) const {
+Vector3 MeshSurface::sum_corner_normals(int node, const ModalView& eta) const {
   Vector3 sum = Vector3::Zero();
   for (const int f : find_faces_of(node)) {
     const Face& nodes = face(f);
@@ -86,8 +85,8 @@ Vector3 Skin::sum_corner_normals(int node, const ModalView& eta) const {
   return sum;
 }
 
-Vector3 Skin::sum_edge_normals(int f, int edge, const FacePlace& at,
-                               const ModalView& eta) const {
+Vector3 MeshSurface::sum_edge_normals(int f, int edge, const FacePlace& at,
+                                      const ModalView& eta) const {
   const int a = face(f)[index(edge)];
   const int b = face(f)[index((edge + 1) % 3)];
   const double weight_b = at.weights()[index((edge + 1) % 3)];
@@ -109,9 +108,9 @@ Vector3 Skin::sum_edge_normals(int f, int edge, const FacePlace& at,
   return sum;
 }
 
-std::optional<Vector3> Skin::find_pseudo_normal(const Candidate& candidate,
-                                                const FacePatch& patch,
-                                                const ModalView& eta) const {
+std::optional<Vector3> MeshSurface::find_pseudo_normal(
+    const Candidate& candidate, const FacePatch& patch,
+    const ModalView& eta) const {
   const auto weights = candidate.at.weights();
   for (std::size_t i = 0; i < 3; ++i) {
     if (weights[i] < 1.0 - kOnEdge) continue;
@@ -127,9 +126,9 @@ std::optional<Vector3> Skin::find_pseudo_normal(const Candidate& candidate,
   return patch.find_normal(candidate.at);
 }
 
-std::optional<Skin::Hit> Skin::find_nearest(const Vector3& p,
-                                            const ModalView& eta, double reach,
-                                            double thickness) const {
+std::optional<MeshSurface::Hit> MeshSurface::find_nearest(
+    const Vector3& p, const ModalView& eta, double reach,
+    double thickness) const {
   // An arm as short as this has no direction.
   constexpr double kNoArm = 1e-12;
   const double bound = radius_ + find_deformation_bound(eta);
@@ -163,8 +162,8 @@ std::optional<Skin::Hit> Skin::find_nearest(const Vector3& p,
              .place = make_place(found->face, found->at)};
 }
 
-double Skin::find_clearance(const Vector3& p, double radius,
-                            const ModalView& eta) const {
+double MeshSurface::find_clearance(const Vector3& p, double radius,
+                                   const ModalView& eta) const {
   const double bound = radius_ + find_deformation_bound(eta);
   const double far = (p - centre_).norm() - bound - radius;
   if (far > bound) return far;

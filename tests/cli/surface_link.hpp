@@ -14,9 +14,9 @@
 namespace limber::test {
 
 /// A robot of the flexible link `b`, which touches with a surface.
-inline std::string make_skin_link(const std::string& mesh, double modulus,
-                                  double density, int modes,
-                                  const std::string& surface = "skin") {
+inline std::string make_surface_link(const std::string& mesh, double modulus,
+                                     double density, int modes,
+                                     const std::string& surface = "skin") {
   return fmt::format(R"(<robot name="b"><link name="b"/>
 <flexible link="b"><mesh file="{}"/>
 <material youngs_modulus="{}" poisson_ratio="0.3" density="{}"/>
@@ -27,14 +27,14 @@ inline std::string make_skin_link(const std::string& mesh, double modulus,
 
 /// Expects that the end of a steel rod, `rod.geo` of 1 m along x from 0 and
 /// 1 cm^2, strikes a wall once as the wave solution says.
-/// @param impulse share by which it may differ; @param restitution at least
+/// @param impulse fraction by which it may differ; @param restitution at least
 /// @param options of the command @param surface that strikes
 inline void expect_wave_impact(const Workspace& place, double impulse,
                                double restitution,
                                const std::string& options = "",
                                const std::string& surface = "skin") {
   place.write("rod.urdf",
-              make_skin_link("rod.geo", 210e9, 7850.0, 60, surface));
+              make_surface_link("rod.geo", 210e9, 7850.0, 60, surface));
   place.write("scene.toml", R"(
 [[robot]]
 name = 'a'

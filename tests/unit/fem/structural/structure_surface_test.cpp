@@ -13,7 +13,7 @@
 #include "limber/fem/structural/read_structure.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem::structure_skin_test {
+namespace limber::fem::structure_surface_test {
 namespace {
 
 using testing::write_file;
@@ -41,7 +41,7 @@ struct Measures {
 };
 
 Measures measure(const MatrixModel& model) {
-  Mesh mesh = model.skin.mesh;
+  Mesh mesh = model.mesh_surface.mesh;
   mesh.x = model.x;
   mesh.tags = model.tags;
   find_boundary(mesh);
@@ -62,32 +62,32 @@ const std::string kPlate =
     "CQUAD4,1,1,1,2,5,4\nCTRIA3,2,1,2,3,6\nCTRIA3,3,1,2,6,5\n"
     "PSHELL,1,1,.1,1,,1\nMAT1,1,7.E+10,,.3,2700.\n";
 
-TEST(StructureSkin, OfAPlateIsThatOfABox) {
+TEST(StructureSurface, OfAPlateIsThatOfABox) {
   const MatrixModel model =
       assemble_structure(read_structure(write_file("p.bdf", kPlate))).model;
   const Measures found = measure(model);
   EXPECT_NEAR(found.area, 2.0 * 3.0 + 8.0 * 0.1, 1e-12);
   EXPECT_NEAR(found.volume, 3.0 * 0.1, 1e-12);
   // Of six nodes each has one below and one above.
-  using Side = ModelSkin::Side;
+  using Side = ModelSurface::Side;
   for (const Side side : {Side::bottom, Side::top}) {
-    EXPECT_EQ(std::ranges::count(model.skin.sides, side), 6);
-    for (std::size_t n = 0; n < model.skin.sides.size(); ++n)
-      if (model.skin.sides[n] == side) {
+    EXPECT_EQ(std::ranges::count(model.mesh_surface.sides, side), 6);
+    for (std::size_t n = 0; n < model.mesh_surface.sides.size(); ++n)
+      if (model.mesh_surface.sides[n] == side) {
         const Vector3 arm = model.x.col(static_cast<Eigen::Index>(n)) -
-                            model.x.col(model.skin.bases[n]);
+                            model.x.col(model.mesh_surface.bases[n]);
         EXPECT_LT(
             (arm - Vector3(0, 0, side == Side::top ? 0.05 : -0.05)).norm(),
             1e-15);
       }
   }
-  ASSERT_EQ(model.skin.materials.size(), 1U);
-  EXPECT_EQ(model.skin.materials[0].youngs_modulus, 7e10);
-  EXPECT_NEAR(model.skin.materials[0].poisson_ratio, 0.3, 1e-15);
+  ASSERT_EQ(model.mesh_surface.materials.size(), 1U);
+  EXPECT_EQ(model.mesh_surface.materials[0].youngs_modulus, 7e10);
+  EXPECT_NEAR(model.mesh_surface.materials[0].poisson_ratio, 0.3, 1e-15);
 }
 
 /// An offset moves both faces.
-TEST(StructureSkin, FollowsTheOffsetOfAShell) {
+TEST(StructureSurface, FollowsTheOffsetOfAShell) {
   std::string text = kPlate;
   const std::size_t first = text.find("CTRIA3");
   text.replace(first, text.find("PSHELL") - first,
@@ -99,7 +99,7 @@ TEST(StructureSkin, FollowsTheOffsetOfAShell) {
   EXPECT_NEAR(model.x.row(2).maxCoeff(), 0.25, 1e-15);
 }
 
-TEST(StructureSkin, OfABeamIsItsOutline) {
+TEST(StructureSurface, OfABeamIsItsOutline) {
   const std::string beam =
       "$ plate or "
       "beam\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,1,1,2,0.,1.,0.\n"
@@ -117,4 +117,4 @@ TEST(StructureSkin, OfABeamIsItsOutline) {
 }
 
 }  // namespace
-}  // namespace limber::fem::structure_skin_test
+}  // namespace limber::fem::structure_surface_test

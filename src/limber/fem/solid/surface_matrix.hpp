@@ -10,7 +10,7 @@ namespace limber::fem {
 /// coefficient per area it is the scalar damping matrix of the surface.
 ///
 /// Equation   S_ab = int N_a N_b dA over the boundary faces
-[[nodiscard]] SparseMatrix assemble_skin(const Mesh& mesh);
+[[nodiscard]] SparseMatrix assemble_surface_matrix(const Mesh& mesh);
 
 /// Largest values over all quadrature points of the symmetric and skew parts of
 /// the displacement gradient; both zero for a translation.

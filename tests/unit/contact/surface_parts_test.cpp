@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/patches/skin_parts.hpp"
+#include "limber/contact/patches/surface_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "unit/contact/meshes.hpp"
 
-/// Whole skins of flexible bodies: their solids, and their potential against
+/// Whole surfaces of flexible bodies: their solids, and their potential against
 /// that of the same shapes when rigid.
-namespace limber::contact::skin_parts_test {
+namespace limber::contact::surface_parts_test {
 namespace {
 
 using joints::PairBody;
@@ -24,10 +24,10 @@ using joints::PairBody;
 const double kModulus = 70e9;
 
 /// The walls of a body of square cells along x and z, from y = -0.5 w to 0.5 w.
-flexbody::ContactSurface make_skin(
+flexbody::ContactSurface make_mesh_surface(
     const std::vector<std::pair<int, int>>& cells, double cell, double w) {
-  flexbody::ContactSurface skin;
-  skin.name = "skin";
+  flexbody::ContactSurface mesh_surface;
+  mesh_surface.name = "skin";
   std::vector<Vector3> points;
   const auto find = [&](const Vector3& x) {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -41,8 +41,8 @@ flexbody::ContactSurface make_skin(
   };
   const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c,
                        const Vector3& d) {
-    skin.faces.push_back({find(a), find(b), find(c), -1, -1, -1});
-    skin.faces.push_back({find(a), find(c), find(d), -1, -1, -1});
+    mesh_surface.faces.push_back({find(a), find(b), find(c), -1, -1, -1});
+    mesh_surface.faces.push_back({find(a), find(c), find(d), -1, -1, -1});
   };
   const double h = 0.5 * w;
   for (const auto& [i, k] : cells) {
@@ -58,17 +58,17 @@ flexbody::ContactSurface make_skin(
     if (!has(i, k + 1)) add({x, -h, Z}, {X, -h, Z}, {X, h, Z}, {x, h, Z});
   }
   const auto n = static_cast<Eigen::Index>(points.size());
-  skin.x_B.resize(3, n);
+  mesh_surface.x_B.resize(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    skin.x_B.col(i) = points[static_cast<std::size_t>(i)];
-    skin.tags.push_back(static_cast<std::size_t>(i) + 1);
+    mesh_surface.x_B.col(i) = points[static_cast<std::size_t>(i)];
+    mesh_surface.tags.push_back(static_cast<std::size_t>(i) + 1);
   }
-  skin.Phi_B.resize(3 * n, 0);
-  skin.residual = VectorX::Zero(n);
-  skin.patch_radius = VectorX::Constant(n, cell);
-  skin.youngs_modulus = kModulus;
-  skin.poisson_ratio = 0.3;
-  return skin;
+  mesh_surface.Phi_B.resize(3 * n, 0);
+  mesh_surface.residual = VectorX::Zero(n);
+  mesh_surface.patch_radius = VectorX::Constant(n, cell);
+  mesh_surface.youngs_modulus = kModulus;
+  mesh_surface.poisson_ratio = 0.3;
+  return mesh_surface;
 }
 
 std::vector<std::pair<int, int>> make_row(int count) {
@@ -79,7 +79,7 @@ std::vector<std::pair<int, int>> make_row(int count) {
 
 // Planes x = at part the slices, without modes.
 void cut_along_x(const std::vector<double>& at,
-                 flexbody::ContactSurface& skin) {
+                 flexbody::ContactSurface& mesh_surface) {
   for (std::size_t i = 0; i <= at.size(); ++i) {
     flexbody::ContactSlice slice;
     const auto add = [&](double sign, double x) {
@@ -94,23 +94,24 @@ void cut_along_x(const std::vector<double>& at,
     if (i > 0) add(-1.0, at[i - 1]);
     if (i < at.size()) add(1.0, at[i]);
     slice.centre_B = Vector3(0.01 * static_cast<double>(i), 0.002, -0.001);
-    skin.slices.push_back(slice);
+    mesh_surface.slices.push_back(slice);
   }
 }
 
-double sum_volumes(const SkinParts& skin) {
+double sum_volumes(const SurfaceParts& mesh_surface) {
   double sum = 0.0;
-  for (const PlacedBody& body : skin.bodies) {
+  for (const PlacedBody& body : mesh_surface.bodies) {
     sum += std::get<ConvexSolid>(body.kind).find_volume();
   }
   return sum;
 }
 
-TEST(SkinParts, OfABarAreItsSlices) {
-  flexbody::ContactSurface skin = make_skin(make_row(5), 0.02, 0.03);
-  EXPECT_TRUE(split_skin(skin).bodies.empty());
-  cut_along_x({0.03, 0.06}, skin);
-  const SkinParts solids = split_skin(skin);
+TEST(SurfaceParts, OfABarAreItsSlices) {
+  flexbody::ContactSurface mesh_surface =
+      make_mesh_surface(make_row(5), 0.02, 0.03);
+  EXPECT_TRUE(split_surface(mesh_surface).bodies.empty());
+  cut_along_x({0.03, 0.06}, mesh_surface);
+  const SurfaceParts solids = split_surface(mesh_surface);
   EXPECT_EQ(solids.slices, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_NEAR(sum_volumes(solids), 0.1 * 0.02 * 0.03, 1e-15);
   EXPECT_EQ(solids.error, 0.0);
@@ -124,19 +125,19 @@ TEST(SkinParts, OfABarAreItsSlices) {
   EXPECT_EQ(count(solids.bodies[2]), 5);
 }
 
-TEST(SkinParts, OfAnAngleAreThoseOfBothLegs) {
+TEST(SurfaceParts, OfAnAngleAreThoseOfBothLegs) {
   auto cells = make_row(4);
   for (int k = 1; k < 4; ++k) cells.emplace_back(0, k);
-  flexbody::ContactSurface skin = make_skin(cells, 0.02, 0.03);
-  cut_along_x({0.05}, skin);
-  const SkinParts solids = split_skin(skin);
+  flexbody::ContactSurface mesh_surface = make_mesh_surface(cells, 0.02, 0.03);
+  cut_along_x({0.05}, mesh_surface);
+  const SurfaceParts solids = split_surface(mesh_surface);
   EXPECT_NEAR(sum_volumes(solids), 7 * 0.02 * 0.02 * 0.03, 1e-15);
   EXPECT_EQ(solids.bodies.size(), 3U);
 }
 
-ContactSide make_side(const flexbody::ContactSurface& skin) {
-  SkinParts parts = split_skin(skin);
-  return {.shape = {std::make_shared<const Skin>(skin), {}},
+ContactSide make_side(const flexbody::ContactSurface& mesh_surface) {
+  SurfaceParts parts = split_surface(mesh_surface);
+  return {.shape = {std::make_shared<const MeshSurface>(mesh_surface), {}},
           .material = SurfaceMaterial{kModulus, 0.3},
           .mass = 1.0,
           .inertia_B = Matrix3::Identity(),
@@ -195,27 +196,28 @@ std::vector<PairBody> list_touches() {
 }
 
 // On a block of which the top is z = 0.
-TEST(SkinParts, OfABoxInOneSliceTouchAsTheBox) {
-  flexbody::ContactSurface skin = make_skin(make_row(5), 0.02, 0.03);
-  cut_along_x({}, skin);
+TEST(SurfaceParts, OfABoxInOneSliceTouchAsTheBox) {
+  flexbody::ContactSurface mesh_surface =
+      make_mesh_surface(make_row(5), 0.02, 0.03);
+  cut_along_x({}, mesh_surface);
   const ContactSide block{
       .shape = {Box{{0.3, 0.2, 0.1}}, {Matrix3::Identity(), {0, 0, -0.1}}},
       .material = SurfaceMaterial{kModulus, 0.3},
       .mass = 2.0,
       .inertia_B = Matrix3::Identity()};
-  const PatchPair of_skin(block, make_side(skin), {});
+  const PatchPair of_surface(block, make_side(mesh_surface), {});
   const PatchPair of_box(block, make_box(), {});
   for (const PairBody& B : list_touches()) {
-    expect_same(evaluate(of_box, {}, B), evaluate(of_skin, {}, B), 1e-9);
+    expect_same(evaluate(of_box, {}, B), evaluate(of_surface, {}, B), 1e-9);
   }
 }
 
 // A slice far from the place of a touch changes nothing, moved, turned or with
 // the other name first.
-TEST(SkinParts, TouchAloneWhereTheyAre) {
-  flexbody::ContactSurface whole = make_skin(make_row(5), 0.02, 0.03);
+TEST(SurfaceParts, TouchAloneWhereTheyAre) {
+  flexbody::ContactSurface whole = make_mesh_surface(make_row(5), 0.02, 0.03);
   cut_along_x({}, whole);
-  flexbody::ContactSurface cut = make_skin(make_row(5), 0.02, 0.03);
+  flexbody::ContactSurface cut = make_mesh_surface(make_row(5), 0.02, 0.03);
   cut_along_x({0.05}, cut);
   const ContactSide block{
       .shape = {Box{{0.3, 0.2, 0.1}}, {Matrix3::Identity(), {0, 0, -0.1}}},
@@ -242,7 +244,7 @@ TEST(SkinParts, TouchAloneWhereTheyAre) {
             1e-6 * expected.force.norm());
 }
 
-double find_volume(const SkinParts& parts) {
+double find_volume(const SurfaceParts& parts) {
   double volume = 0.0;
   for (const PlacedBody& body : parts.bodies) {
     volume += std::get<ConvexSolid>(body.kind).find_volume();
@@ -255,9 +257,9 @@ TEST(MeshCover, OfAGlobeIsTheGlobe) {
   constexpr double kRadius = 0.1;
   const TestMesh globe = make_globe(40, kRadius);
   const ContactSide side = globe.make_side(kModulus, 1.0, Matrix3::Identity());
-  const SkinParts cover = cover_mesh(
-      std::get<std::shared_ptr<const Skin>>(side.shape.kind)->surface());
-  EXPECT_LE(cover.bodies.size(), kMostSkinParts);
+  const SurfaceParts cover = cover_mesh(
+      std::get<std::shared_ptr<const MeshSurface>>(side.shape.kind)->surface());
+  EXPECT_LE(cover.bodies.size(), kMostSurfaceParts);
   EXPECT_LT(cover.error, 5e-3 * kRadius);
   double facets = 0.0;
   for (const auto& face : globe.faces) {
@@ -275,12 +277,12 @@ TEST(MeshCover, OfAGlobeIsTheGlobe) {
 
 TEST(MeshCover, OfABoxIsTheBox) {
   const flexbody::ContactSurface bar =
-      make_skin({{0, 0}, {1, 0}, {2, 0}}, 0.02, 0.01);
-  const SkinParts cover = cover_mesh(bar);
+      make_mesh_surface({{0, 0}, {1, 0}, {2, 0}}, 0.02, 0.01);
+  const SurfaceParts cover = cover_mesh(bar);
   ASSERT_EQ(cover.bodies.size(), 1U);
   EXPECT_LT(cover.error, 1e-12);
   EXPECT_NEAR(find_volume(cover), 0.06 * 0.02 * 0.01, 1e-15);
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_parts_test
+}  // namespace limber::contact::surface_parts_test

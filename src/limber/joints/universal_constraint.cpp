@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/joints/universal_hold.hpp"
+#include "limber/joints/universal_constraint.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace limber::joints {
 
-UniversalHold::UniversalHold(const Parameters& parameters)
+UniversalConstraint::UniversalConstraint(const Parameters& parameters)
     : parameters_(parameters) {
   Parameters& p = parameters_;
   for (const double value : {p.translational_stiffness, p.rotational_stiffness,
@@ -36,7 +36,8 @@ UniversalHold::UniversalHold(const Parameters& parameters)
   p.axis_M.normalize();
 }
 
-CouplerResponse UniversalHold::evaluate(const RelativeMotion& motion) const {
+CouplerResponse UniversalConstraint::evaluate(
+    const RelativeMotion& motion) const {
   const Parameters& p = parameters_;
   const Vector3& a = p.axis_F;
   const Vector3 b = motion.R_FM * p.axis_M;
@@ -69,7 +70,7 @@ CouplerResponse UniversalHold::evaluate(const RelativeMotion& motion) const {
   return response;
 }
 
-RequiredSides UniversalHold::find_required_rotations() const {
+RequiredSides UniversalConstraint::find_required_rotations() const {
   const Parameters& p = parameters_;
   if (p.rotational_stiffness == 0.0 && p.rotational_damping == 0.0) return {};
   const auto normal_to = [](const Vector3& axis) -> Matrix3 {
@@ -78,20 +79,22 @@ RequiredSides UniversalHold::find_required_rotations() const {
   return {normal_to(p.axis_F), normal_to(p.axis_M)};
 }
 
-HoldStiffness find_hold_stiffness(const UniversalHold& hold) {
-  return {hold.parameters().translational_stiffness,
-          hold.parameters().rotational_stiffness};
+ConstraintStiffness find_constraint_stiffness(
+    const UniversalConstraint& constraint) {
+  return {constraint.parameters().translational_stiffness,
+          constraint.parameters().rotational_stiffness};
 }
 
-HoldGive find_give(const UniversalHold& hold, const HoldStiffness& stiffness,
-                   const RelativeMotion& motion) {
-  const UniversalHold::Parameters& p = hold.parameters();
-  HoldGive give;
-  if (stiffness.translational > 0.0) give.distance = motion.p_FM_F.norm();
+ConstraintDeflection find_deflection(const UniversalConstraint& constraint,
+                                     const ConstraintStiffness& stiffness,
+                                     const RelativeMotion& motion) {
+  const UniversalConstraint::Parameters& p = constraint.parameters();
+  ConstraintDeflection deflection;
+  if (stiffness.translational > 0.0) deflection.distance = motion.p_FM_F.norm();
   if (stiffness.rotational > 0.0) {
-    give.turn = std::abs(p.axis_F.dot(motion.R_FM * p.axis_M));
+    deflection.rotation = std::abs(p.axis_F.dot(motion.R_FM * p.axis_M));
   }
-  return give;
+  return deflection;
 }
 
 }  // namespace limber::joints

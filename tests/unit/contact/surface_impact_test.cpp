@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "limber/contact/make_contact.hpp"
-#include "limber/contact/shapes/skin.hpp"
+#include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -14,7 +14,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// Impacts of bodies whose surfaces are meshes.
-namespace limber::contact::skin_impact_test {
+namespace limber::contact::surface_impact_test {
 namespace {
 
 using dynamics::RunRecord;
@@ -25,9 +25,9 @@ constexpr double kMass = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius *
                          kRadius * 7800.0;  // [kg]
 
 Shape make_meshed_ball() {
-  return {
-      std::make_shared<const Skin>(test::make_ball_surface(kRadius, 3, true)),
-      {}};
+  return {std::make_shared<const MeshSurface>(
+              test::make_ball_surface(kRadius, 3, true)),
+          {}};
 }
 
 struct Pair {
@@ -69,7 +69,7 @@ struct Pair {
 
 // Hertz's impact [@johnson1985, ch. 11], of faces that leave the ball by 1e-5
 // of its radius; the depth is 1e-3 of it.
-TEST(SkinImpact, OfAMeshedBallAndABallIsHertzs) {
+TEST(SurfaceImpact, OfAMeshedBallAndABallIsHertzs) {
   const double modulus = 2.1e11 / (2.0 * (1.0 - 0.09));
   const double k = 4.0 / 3.0 * modulus * std::sqrt(0.5 * kRadius);
   const double depth = std::pow(1.25 * 0.5 * kMass / k, 0.4);
@@ -93,4 +93,4 @@ TEST(SkinImpact, OfAMeshedBallAndABallIsHertzs) {
 }
 
 }  // namespace
-}  // namespace limber::contact::skin_impact_test
+}  // namespace limber::contact::surface_impact_test

@@ -10,7 +10,7 @@
 #include "limber/common/types.hpp"
 #include "limber/contact/shapes/face_patch.hpp"
 #include "limber/contact/shapes/shape.hpp"
-#include "limber/contact/shapes/skin_tree.hpp"
+#include "limber/contact/shapes/surface_tree.hpp"
 #include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
@@ -27,15 +27,15 @@ namespace limber::contact {
 /// Limits     the surface follows x_B + Phi_B eta, also where Phi_B is the mean
 ///            motion of patches. A surface with a border, such as a group of
 ///            faces, has no inside: see find_nearest.
-class Skin {
+class MeshSurface {
  public:
   /// @throws InputError, with the surface's name, for sizes that do not fit,
   /// rows out of range, nodes without a face, values that are not finite, or
   /// faces without area.
-  explicit Skin(flexbody::ContactSurface surface);
+  explicit MeshSurface(flexbody::ContactSurface surface);
   /// For a body at level `full`. @param mesh_nodes N
   /// @throws InputError as above, also for nodes beyond N
-  Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes);
+  MeshSurface(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes);
 
   [[nodiscard]] const flexbody::ContactSurface& surface() const {
     return surface_;
@@ -159,15 +159,16 @@ class Skin {
   std::vector<std::array<bool, 3>> is_border_;  // edges 01, 12, 20 of faces
   std::vector<bool> is_border_node_;
   bool is_closed_ = true;
-  Vector3 centre_ = Vector3::Zero();  // of a sphere about the undeformed skin
+  Vector3 centre_ =
+      Vector3::Zero();  // of a sphere about the undeformed surface
   double radius_ = 0.0;
   VectorX largest_motions_;  // m, of any control point under each mode
-  SkinTree tree_;
+  SurfaceTree tree_;
 };
 
-/// The body's modal coordinates if the skin has modes, else none.
+/// The body's modal coordinates if the surface has modes, else none.
 /// @throws ContractError if their numbers differ.
-[[nodiscard]] ModalView find_modal_coordinates(const Skin& skin,
+[[nodiscard]] ModalView find_modal_coordinates(const MeshSurface& mesh_surface,
                                                const joints::PairBody& body);
 
 }  // namespace limber::contact
