@@ -18,6 +18,8 @@ std::string name_section_place(SectionFace face, int ply) {
     case SectionFace::ply_top:
     case SectionFace::top:
       return name("top");
+    case SectionFace::solid:
+      return "solid";
     case SectionFace::outline:
       break;
   }

@@ -11,6 +11,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/fem/linalg/linear_fit.hpp"
+#include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/fem/structural/place_element.hpp"
 #include "limber/fem/structural/shell_axes.hpp"
 
@@ -101,6 +102,8 @@ Matrix6 calc_outline(const BeamSection& section,
 /// What a recovery keeps of its model.
 struct RecoveredModel {
   Structure structure;
+  StructureSolids solids;
+  std::vector<int> solid_nodes;
   std::vector<int> places;
   NodeMap map;
   DrawnStructure drawn;
@@ -117,6 +120,7 @@ class StressRecovery {
     for (std::size_t b = 0; b < structure_.beams.size(); ++b) recover_beam(b);
     sample_shells();
     for (const CornerGroup& group : groups_) recover_group(group);
+    if (!model_.solids.mesh.blocks.empty()) recover_solids();
     result_.stress = stack(stress_);
     result_.forces = stack(forces_);
     list_constants();
@@ -360,10 +364,39 @@ class StressRecovery {
     return stress;
   }
 
+  // ---- solids
+  /// In SI units, from there in those of the deck.
+  void recover_solids() {
+    const StructureSolids& solids = model_.solids;
+    const double unit = solids.unit;
+    const std::vector<int>& nodes = model_.solid_nodes;
+    MatrixX Phi(3 * std::ssize(nodes), motions_.cols());
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      Phi.middleRows<3>(3 * static_cast<Eigen::Index>(n)) =
+          unit * motions_.middleRows<3>(Eigen::Index{6} * nodes[n]);
+    const NodalStress nodal =
+        recover_stress(solids.mesh, solids.materials, Phi);
+    const auto& boundary = solids.mesh.boundary_nodes;
+    const auto first = static_cast<int>(structure_.laminates.size() +
+                                        structure_.beam_properties.size());
+    for (std::size_t i = 0; i < nodal.nodes.size(); ++i) {
+      stress_.emplace_back(unit * unit *
+                           nodal.stress.col(static_cast<Eigen::Index>(i))
+                               .reshaped(6, Phi.cols()));
+      const int node = model_.places[index(nodes[index(nodal.nodes[i])])];
+      result_.points.push_back(
+          {node, node, first + nodal.materials[i], SectionFace::solid, 0,
+           Matrix3::Identity(), Vector6::Zero(),
+           std::ranges::binary_search(boundary, nodal.nodes[i])});
+    }
+    solid_constants_ = nodal.constants;
+  }
+
   void list_constants() {
     const auto& laminates = structure_.laminates;
     const auto& beams = structure_.beam_properties;
-    result_.constants.resize(2, std::ssize(laminates) + std::ssize(beams));
+    result_.constants.resize(2, std::ssize(laminates) + std::ssize(beams) +
+                                    std::ssize(solid_constants_));
     Eigen::Index i = 0;
     for (const Laminate& laminate : laminates) {
       const Matrix3& A = laminate.A;
@@ -375,6 +408,9 @@ class StressRecovery {
       const BeamMaterial& m = beam.material;
       result_.constants.col(i++) << m.youngs_modulus, m.poissons_ratio();
     }
+    const double area = model_.solids.unit * model_.solids.unit;
+    for (const ElasticMaterial& m : solid_constants_)
+      result_.constants.col(i++) << area * m.youngs_modulus, m.poisson_ratio;
   }
 
   const RecoveredModel& model_;
@@ -382,6 +418,7 @@ class StressRecovery {
   MatrixX motions_;  // of all nodes, six rows each
   std::vector<SampledShell> shells_;
   std::vector<CornerGroup> groups_;
+  std::vector<ElasticMaterial> solid_constants_;
   SectionStress result_;
   std::vector<MatrixX> stress_;  // of each point
   std::vector<MatrixX> forces_;  // of each end
@@ -390,10 +427,13 @@ class StressRecovery {
 }  // namespace
 
 RecoverSections make_recovery(const Structure& structure,
+                              const StructureSolids& solids,
+                              std::vector<int> solid_nodes,
                               std::vector<int> places, const NodeMap& map,
                               DrawnStructure drawn) {
   const auto model = std::make_shared<const RecoveredModel>(
-      RecoveredModel{structure, std::move(places), map, std::move(drawn)});
+      RecoveredModel{structure, solids, std::move(solid_nodes),
+                     std::move(places), map, std::move(drawn)});
   return [model](const MatrixX& moved) {
     return StressRecovery(*model, moved).recover();
   };

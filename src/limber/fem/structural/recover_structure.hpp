@@ -7,8 +7,9 @@
 
 namespace limber::fem {
 
-/// Stress at the nodes of shells, bottom, middle and top or by ply, and on the
-/// outlines of beams; section forces at the ends of beams.
+/// Stress at the nodes of shells, bottom, middle and top or by ply, on the
+/// outlines of beams, and at the nodes of solids; section forces at the ends of
+/// beams.
 ///
 /// Equation   shells: strains at a node times the ply's stiffness; transverse
 ///            shear stress by equilibrium (laminate.hpp). Elements of one
@@ -23,10 +24,13 @@ namespace limber::fem {
 ///            at all points of the outline
 /// Limits     no shear stress of a beam's shear forces; no points on beams
 ///            without dimensions (BeamSection::torsion_modulus 0)
-/// @param structure, copied
+/// @param structure, solids, copied @param solid_nodes of their mesh in the
+/// structure
 /// @param places of the structure's nodes in the model
 /// @param map six unknowns of each node by the model's rows
 [[nodiscard]] RecoverSections make_recovery(const Structure& structure,
+                                            const StructureSolids& solids,
+                                            std::vector<int> solid_nodes,
                                             std::vector<int> places,
                                             const NodeMap& map,
                                             DrawnStructure drawn);
