@@ -62,7 +62,8 @@ const std::string kProbes =
     probe_text("middle", "section_force", "node = 2\nelement = 2") +
     probe_text("all", "section_force", "") +
     probe_text("mises", "von_mises", "node = 2") +
-    probe_text("axial", "stress", "node = 1\naxes = 'layer'");
+    probe_text("axial", "stress", "node = 1\naxes = 'layer'") +
+    probe_text("shear", "von_mises", "node = 3");
 
 TEST_F(Boom, HasTheSectionForcesAndStressOfACantilever) {
   write_boom();
@@ -76,6 +77,11 @@ TEST_F(Boom, HasTheSectionForcesAndStressOfACantilever) {
   const double bend = kForce * 0.05 / kInertia;  // a metre from the end
   EXPECT_NEAR(value(summary, "mises.von_mises"), bend, 1e-6 * bend);
   EXPECT_NEAR(std::abs(value(summary, "axial.s11")), 2.0 * bend, 2e-6 * bend);
+  // At the end, without moment, V (a^2 + a b + b^2) / (3 I).
+  const double shear =
+      kForce * (0.05 * 0.05 + 0.05 * 0.045 + 0.045 * 0.045) / (3.0 * kInertia);
+  EXPECT_NEAR(value(summary, "shear.von_mises"), std::sqrt(3.0) * shear,
+              1e-6 * bend);
   const json& largest = summary.at("stress").at(0);
   EXPECT_NEAR(largest.at("von_mises").get<double>(), 2.0 * bend, 2e-6 * bend);
   EXPECT_EQ(largest.at("node"), 1);

@@ -20,6 +20,8 @@ std::string name_section_place(SectionFace face, int ply) {
       return name("top");
     case SectionFace::solid:
       return "solid";
+    case SectionFace::inner:
+      return fmt::format("inner {}", ply);
     case SectionFace::outline:
       break;
   }

@@ -15,12 +15,13 @@ enum class SectionFace : int {
   top,         ///< of the shell, and of its highest ply
   outline,     ///< of a beam
   solid,       ///< at a node of solids beside shells or beams
+  inner,       ///< of a beam, inside of its outline
 };
-inline constexpr int kSectionFaces = 7;
+inline constexpr int kSectionFaces = 8;
 
-/// "top", "middle", "ply 2 bottom", "outline 3",
+/// "top", "middle", "ply 2 bottom", "outline 3", "inner 1",
 /// "solid". @param ply from 1, of a beam
-/// the number of the point on its outline; 0: of a shell without plies
+/// the number of the point; 0: of a shell without plies
 [[nodiscard]] std::string name_section_place(SectionFace face, int ply);
 
 }  // namespace limber

@@ -85,17 +85,17 @@ Matrix8 turn_strains(const Matrix3& R) {
   return T;
 }
 
-/// Stress at a point of a beam's outline by its section forces.
-Matrix6 calc_outline(const BeamSection& section,
-                     const std::array<double, 2>& point) {
-  const auto [y, z] = point;
+/// Stress at a point of a beam's section by its section forces.
+Matrix6 calc_beam_stress(const BeamSection& section, const SectionPoint& at) {
   Matrix6 stress = Matrix6::Zero();
   stress(0, 0) = 1.0 / section.area;
-  stress(0, 4) = z / section.I_y;
-  stress(0, 5) = -y / section.I_z;
-  const double r = std::hypot(y, z);
-  stress(3, 3) = -z / (r * section.torsion_modulus);
-  stress(5, 3) = y / (r * section.torsion_modulus);
+  stress(0, 4) = at.z / section.I_y;
+  stress(0, 5) = -at.y / section.I_z;
+  for (const auto& [force, shear] :
+       {std::pair{1, at.shear_y}, {2, at.shear_z}, {3, at.torsion}}) {
+    stress(3, force) = shear[0];
+    stress(5, force) = shear[1];
+  }
   return stress;
 }
 
@@ -155,22 +155,23 @@ class StressRecovery {
         find_motions(make_element(structure_, beam).section_forces, nodes);
     const Matrix3 axes = find_axes(structure_, beam);
     const Matrix6 turn = turn_components(axes);
-    const auto outline = list_outline(section);
-    const bool has_points = section.torsion_modulus > 0.0;
-    if (!has_points) ++result_.bare_beams;
+    if (section.points.empty()) ++result_.bare_beams;
     for (std::size_t end = 0; end < 2; ++end) {
       const int node = model_.places[index(nodes[end])];
       forces_.emplace_back(
           both.middleRows<6>(static_cast<Eigen::Index>(6 * end)));
       result_.ends.push_back({node, beam.tag});
-      for (std::size_t k = 0; has_points && k < outline.size(); ++k) {
-        stress_.emplace_back(turn * calc_outline(section, outline[k]) *
+      const std::vector<int>& corners = model_.drawn.outlines[b][end];
+      std::array<int, 2> numbers = {0, 0};  // on the outline, inside of it
+      for (std::size_t k = 0; k < section.points.size(); ++k) {
+        const SectionPoint& at = section.points[k];
+        stress_.emplace_back(turn * calc_beam_stress(section, at) *
                              forces_.back());
         result_.points.push_back(
-            {node, model_.drawn.outlines[b][end][k],
+            {node, k < corners.size() ? corners[k] : node,
              static_cast<int>(structure_.laminates.size()) + beam.property,
-             SectionFace::outline, static_cast<int>(k) + 1, axes,
-             Vector6::Zero()});
+             at.is_inner ? SectionFace::inner : SectionFace::outline,
+             ++numbers[at.is_inner ? 1 : 0], axes, Vector6::Zero()});
       }
     }
   }

@@ -20,10 +20,9 @@ namespace limber::fem {
 ///            find_linear_fit() through the middles of the elements around
 ///            the node, of a node at an edge the mean of what those of its
 ///            neighbours inside give there. Beams: N / A + My z / Iy
-///            - Mz y / Iz, and the largest shear stress of torsion, T / W_t,
-///            at all points of the outline
-/// Limits     no shear stress of a beam's shear forces; no points on beams
-///            without dimensions (BeamSection::torsion_modulus 0)
+///            - Mz y / Iz, shear stress of Vy and Vz by the section's points,
+///            and the largest of torsion, T / W_t, along the outline
+/// Limits     no points on beams without dimensions (BeamSection::points)
 /// @param structure, solids, copied @param solid_nodes of their mesh in the
 /// structure
 /// @param places of the structure's nodes in the model

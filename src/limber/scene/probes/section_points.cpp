@@ -20,7 +20,8 @@ bool fits_layer(const SectionModes& sections, std::size_t point,
                 const SectionSelection& section) {
   const auto face = static_cast<SectionFace>(sections.faces[point]);
   const bool has_ply = section.ply > 0;
-  if (has_ply && (face == SectionFace::outline || face == SectionFace::solid ||
+  if (has_ply && (face == SectionFace::outline || face == SectionFace::inner ||
+                  face == SectionFace::solid ||
                   std::max(sections.plies[point], 1) != section.ply)) {
     return false;
   }

@@ -13,7 +13,7 @@
 namespace limber::fem::structural_test {
 namespace {
 
-constexpr double kAtZero = 1e-9;
+constexpr double kOnPlane = 1e-9;
 
 bool holds_symmetry(const Vector3& x, int component, int axis) {
   return std::abs(x[axis]) < 1e-6 &&
@@ -172,8 +172,8 @@ TEST(NafemsShells, FrequenciesOfAThickPlate) {
         [](double u, double v) { return Vector3(10.0 * u, 10.0 * v, 0.0); });
     const VectorX found =
         find_frequencies(grid.structure, 6, [](const Vector3& x, int c) {
-          const bool is_x = x.x() < kAtZero || x.x() > 10.0 - kAtZero;
-          const bool is_y = x.y() < kAtZero || x.y() > 10.0 - kAtZero;
+          const bool is_x = x.x() < kOnPlane || x.x() > 10.0 - kOnPlane;
+          const bool is_y = x.y() < kOnPlane || x.y() > 10.0 - kOnPlane;
           return c == 0 || c == 1 || c == 5 || (c == 2 && (is_x || is_y)) ||
                  (c == 3 && is_x) || (c == 4 && is_y);
         });
