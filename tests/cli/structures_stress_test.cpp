@@ -6,9 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "cli/command.hpp"
 #include "cli/stress_answers.hpp"
+#include "limber/common/types.hpp"
 #include "places.hpp"
 
 /// Stress of decks of beams and shells, by the command.
@@ -62,7 +64,8 @@ const std::string kProbes =
     probe_text("middle", "section_force", "node = 2\nelement = 2") +
     probe_text("all", "section_force", "") +
     probe_text("mises", "von_mises", "node = 2") +
-    probe_text("axial", "stress", "node = 1\naxes = 'layer'");
+    probe_text("axial", "stress", "node = 1\naxes = 'layer'") +
+    probe_text("shear", "von_mises", "node = 3");
 
 TEST_F(Boom, HasTheSectionForcesAndStressOfACantilever) {
   write_boom();
@@ -76,6 +79,11 @@ TEST_F(Boom, HasTheSectionForcesAndStressOfACantilever) {
   const double bend = kForce * 0.05 / kInertia;  // a metre from the end
   EXPECT_NEAR(value(summary, "mises.von_mises"), bend, 1e-6 * bend);
   EXPECT_NEAR(std::abs(value(summary, "axial.s11")), 2.0 * bend, 2e-6 * bend);
+  // At the end, without moment, V (a^2 + a b + b^2) / (3 I).
+  const double shear =
+      kForce * (0.05 * 0.05 + 0.05 * 0.045 + 0.045 * 0.045) / (3.0 * kInertia);
+  EXPECT_NEAR(value(summary, "shear.von_mises"), std::sqrt(3.0) * shear,
+              1e-6 * bend);
   const json& largest = summary.at("stress").at(0);
   EXPECT_NEAR(largest.at("von_mises").get<double>(), 2.0 * bend, 2e-6 * bend);
   EXPECT_EQ(largest.at("node"), 1);
@@ -314,6 +322,54 @@ TEST(Strip, RefusesPliesThatItDoesNotHave) {
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.errors, HasSubstr("expected one of those there: ply 1 "
                                      "bottom, ply 1 top, ply 2 bottom"));
+}
+
+/// [0/90] of triangles under 1 kN of tension at its end: classical laminate
+/// theory, [e; k] = [A B; B D]^-1 [N; 0].
+TEST(Strip, OfTrianglesOfACoupledLaminateCurvesUnderTension) {
+  const Workspace place;
+  std::string text =
+      "BEGIN BULK\nCORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+      "MAT8,1,1.4+11,1.+10,.3,5.+9,5.+9,3.+9,1600.\n"
+      "PCOMP,1\n,1,.002,0.,,1,.002,90.\n";
+  for (int j = 0; j <= kAcross; ++j)
+    for (int i = 0; i <= kAlong; ++i)
+      text += fmt::format("GRID,{},,{:.6f},{:.6f},0.\n", node_at(i, j),
+                          1.0 * i / kAlong, 0.05 * j);
+  int number = 0;
+  for (int j = 0; j < kAcross; ++j)
+    for (int i = 0; i < kAlong; ++i)
+      for (const auto& [b, c] :
+           {std::pair{node_at(i + 1, j), node_at(i + 1, j + 1)},
+            {node_at(i + 1, j + 1), node_at(i, j + 1)}})
+        text += fmt::format("CTRIA3,{},1,{},{},{},7\n", ++number, node_at(i, j),
+                            b, c);
+  text += fmt::format("SPC1,1,123456,{},{},{}\nENDDATA\n", node_at(0, 0),
+                      node_at(0, 1), node_at(0, 2));
+  place.write("strip.bdf", text);
+  write_strip_scene(place, "",
+                    "[[probe]]\nname = 'w'\nlink = 'bar'\nquantity = "
+                    "'displacement'\ninterface = 'end'\n" +
+                        probe_text("low", "stress",
+                                   at_middle("ply = 1\nlayer = 'bottom'\n"
+                                             "axes = 'layer'")));
+  const json summary =
+      answer(place, "static s.toml --set load.pull.force=[1000,0,0]");
+  const double d = 1.0 - 0.09 / 14.0;
+  Matrix3 Q0 = Matrix3::Zero();
+  Q0 << 140e9 / d, 3e9 / d, 0, 3e9 / d, 10e9 / d, 0, 0, 0, 5e9;
+  Matrix3 Q9 = Q0;
+  std::swap(Q9(0, 0), Q9(1, 1));
+  const double t = 0.002;
+  Matrix6 ABD;
+  ABD << t * (Q0 + Q9), 0.5 * t * t * (Q9 - Q0), 0.5 * t * t * (Q9 - Q0),
+      t * t * t / 3.0 * (Q0 + Q9);
+  const Vector6 strain = ABD.inverse() * (1000.0 / 0.1 * Vector6::Unit(0));
+  EXPECT_NEAR(value(summary, "w.uz"), -0.5 * strain[3],
+              2e-3 * std::abs(0.5 * strain[3]));
+  const Vector3 low = Q0 * (strain.head<3>() - t * strain.tail<3>());
+  EXPECT_NEAR(value(summary, "low.s11"), low[0], 2e-3 * std::abs(low[0]));
+  EXPECT_NEAR(value(summary, "low.s22"), low[1], 2e-3 * std::abs(low[0]));
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ std::string name_section_place(SectionFace face, int ply) {
     case SectionFace::ply_top:
     case SectionFace::top:
       return name("top");
+    case SectionFace::solid:
+      return "solid";
+    case SectionFace::inner:
+      return fmt::format("inner {}", ply);
     case SectionFace::outline:
       break;
   }

@@ -91,9 +91,8 @@ class StructureAssembler {
     take_sets();
     DrawnStructure drawn = draw_structure(
         {structure_, solids_, motions_, places_, solid_nodes_, map_}, model);
-    if (solids_.mesh.blocks.empty())
-      model.recover_sections =
-          make_recovery(structure_, places_, map_, std::move(drawn));
+    model.recover_sections = make_recovery(structure_, solids_, solid_nodes_,
+                                           places_, map_, std::move(drawn));
     return std::move(result_);
   }
 

@@ -280,10 +280,9 @@ std::vector<std::array<double, 2>> list_outline(const BeamSection& section) {
     z = std::sqrt(3.0 * section.I_y / section.area);
   }
   if (!section.is_round) return {{-y, -z}, {y, -z}, {y, z}, {-y, z}};
-  constexpr int kCorners = 12;
   std::vector<std::array<double, 2>> outline;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+  for (int i = 0; i < kRoundCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kRoundCorners;
     outline.push_back({y * std::cos(angle), z * std::sin(angle)});
   }
   return outline;

@@ -54,19 +54,6 @@ SurfacePoint find_point(const ShellShape& shape, double r, double s) {
   return at;
 }
 
-/// From strains [rr, ss, 2 rs] to [11, 22, 2 12].
-Matrix3 turn_strain(const Matrix2& J_inv) {
-  const double a = J_inv(0, 0);
-  const double b = J_inv(0, 1);
-  const double c = J_inv(1, 0);
-  const double d = J_inv(1, 1);
-  Matrix3 T;
-  T << a * a, b * b, a * b,  //
-      c * c, d * d, c * d,   //
-      2.0 * a * c, 2.0 * b * d, a * d + b * c;
-  return T;
-}
-
 class QuadMaker {
  public:
   QuadMaker(const ShellShape& shape, const Laminate& laminate)

@@ -22,6 +22,18 @@ Matrix3 make_surface_axes(const Vector3& normal, const Vector3& axis) {
   return axes;
 }
 
+Matrix3 turn_strain(const Matrix2& R) {
+  const double a = R(0, 0);
+  const double b = R(0, 1);
+  const double c = R(1, 0);
+  const double d = R(1, 1);
+  Matrix3 T;
+  T << a * a, b * b, a * b,  //
+      c * c, d * d, c * d,   //
+      2.0 * a * c, 2.0 * b * d, a * d + b * c;
+  return T;
+}
+
 std::array<double, 2> find_mass_places(const Laminate& laminate) {
   if (!(laminate.mass > 0.0)) return {0.0, 0.0};
   const double z = laminate.first_mass / laminate.mass;

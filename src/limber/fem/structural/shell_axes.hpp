@@ -13,6 +13,10 @@ namespace limber::fem {
 [[nodiscard]] Matrix3 make_surface_axes(const Vector3& normal,
                                         const Vector3& axis);
 
+/// Strains [11, 22, 2 12] of directions from those [rr, ss, 2 rs] of others.
+/// @param R of the slopes along 1, 2 by those along r, s
+[[nodiscard]] Matrix3 turn_strain(const Matrix2& R);
+
 /// Two places through the thickness with the laminate's mass and moments of
 /// it: z of both, each with half of the mass.
 [[nodiscard]] std::array<double, 2> find_mass_places(const Laminate& laminate);

@@ -41,17 +41,20 @@ inline constexpr double kDrilling = 1e-3;
 /// Equation   membrane with rotations about the normal (optimal parameters);
 ///            rotations quadratic along the sides; transverse shear constant
 ///            along each of them. In the limit of a thin shell the bending is
-///            that of the discrete Kirchhoff triangle (DKT): it does not lock
+///            that of the discrete Kirchhoff triangle (DKT): it does not lock.
+///            Laminates with B: N = A (e + A^-1 B k') with k' the mean
+///            curvature, M by D - B A^-1 B: additional membrane strains -A^-1 B
+///            (k - k') of mean zero, which the varying curvature would stretch
+///            otherwise
 /// Source     membrane: Felippa, A study of optimal membrane triangles with
 ///            drilling freedoms, Comput. Meth. Appl. Mech. Eng. 192 (2003)
 ///            2125-2168; bending: Katili, A new discrete Kirchhoff-Mindlin
 ///            element based on Mindlin-Reissner plate theory and assumed shear
 ///            strain fields, part I (DKMT), Int. J. Numer. Meth. Eng. 36 (1993)
 ///            1859-1883
-/// Limits     no coupling of stretching and bending, B = 0
 /// @returns 18 x 18
-/// @throws InputError, without its place, for one without area, `axis` along
-/// the normal, or B other than 0
+/// @throws InputError, without its place, for one without area, or `axis` along
+/// the normal
 [[nodiscard]] StructuralElement make_triangle_shell(const ShellShape& shape,
                                                     const Laminate& laminate);
 

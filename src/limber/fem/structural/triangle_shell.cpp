@@ -96,14 +96,16 @@ Matrix9 make_higher_membrane(const Triangle& t, const Matrix3& A) {
 ///
 ///     w_j - w_i + L (b_i + b_j) / 2 + 2/3 L D = -2/3 L phi D,
 ///     phi = 12 D_ss / (S_ss L^2), b the rotation along the side
+///
+/// D is that of bending without normal forces.
 class DiscretePlate {
  public:
-  DiscretePlate(const Triangle& t, const Laminate& laminate) {
+  DiscretePlate(const Triangle& t, const Matrix3& D, const Matrix2& S) {
     slopes_ << t.dy(2, 3), t.dx(3, 2), t.dy(3, 1), t.dx(1, 3), t.dy(1, 2),
         t.dx(2, 1);
     slopes_ /= 2.0 * t.area;
     J_ << t.dx(2, 1), t.dy(2, 1), t.dx(3, 1), t.dy(3, 1);
-    for (int k = 0; k < 3; ++k) add_side(k, laminate);
+    for (int k = 0; k < 3; ++k) add_side(k, D, S);
   }
 
   /// Curvatures at area coordinates N; u_1 = z theta_2, u_2 = -z theta_1.
@@ -140,7 +142,7 @@ class DiscretePlate {
  private:
   using Row9 = Eigen::Matrix<double, 1, 9>;
 
-  void add_side(int k, const Laminate& laminate) {
+  void add_side(int k, const Matrix3& D, const Matrix2& S) {
     const int j = (k + 1) % 3;
     // From node k to j.
     const Eigen::Vector2d side =
@@ -150,8 +152,8 @@ class DiscretePlate {
     const double L = side.norm();
     const Eigen::Vector2d d = side / L;
     const Vector3 along(d[0] * d[0], d[1] * d[1], 2.0 * d[0] * d[1]);
-    const double phi = 12.0 * along.dot(laminate.D * along) *
-                       d.dot(laminate.S.inverse() * d) / (L * L);
+    const double phi =
+        12.0 * along.dot(D * along) * d.dot(S.inverse() * d) / (L * L);
     Row9 gap = Row9::Zero();
     gap[3 * k] = -1.0;
     gap[3 * j] = 1.0;
@@ -181,6 +183,8 @@ const std::array<Vector3, 3> kInside = {Vector3(2.0, 0.5, 0.5) / 3.0,
                                         Vector3(0.5, 2.0, 0.5) / 3.0,
                                         Vector3(0.5, 0.5, 2.0) / 3.0};
 
+const Vector3 kMiddle = Vector3::Constant(1.0 / 3.0);
+
 }  // namespace
 
 StructuralElement make_triangle_shell(const ShellShape& shape,
@@ -193,14 +197,6 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
     throw InputError(
         "the triangle has no area. Expected three nodes that are not on a "
         "line.");
-  constexpr double kCoupling = 1e-9;
-  const double t_all = laminate.top - laminate.bottom;
-  if (laminate.B.norm() > kCoupling * t_all * laminate.A.norm())
-    throw InputError(
-        "a triangle whose laminate couples stretching and bending "
-        "(unsymmetric, "
-        "or off its nodes by an offset) is not supported. Expected a symmetric "
-        "one at its nodes, or quadrilaterals.");
   const Matrix3 axes = make_surface_axes(across.normalized(), shape.axis);
   Triangle t;
   t.area = 0.5 * across.norm();
@@ -210,21 +206,26 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
     t.y[static_cast<std::size_t>(i)] = axes.col(1).dot(x);
   }
 
+  // N = A (e + C k); the varying part of C k stretches nothing.
+  const Matrix3 C = laminate.A.inverse() * laminate.B;
+  const Matrix3 D = laminate.D - laminate.B * C;
   const Strain9 membrane = make_mean_strain(t);
-  const DiscretePlate plate(t, laminate);
-  Matrix9 K_membrane = t.area * membrane.transpose() * laminate.A * membrane +
-                       make_higher_membrane(t, laminate.A);
+  const DiscretePlate plate(t, D, laminate.S);
+  const Strain9 mean_curvature = plate.make_curvature(kMiddle);
+  MatrixX stretch(3, 18);
+  stretch(Eigen::all, kInPlane) = membrane;
+  stretch(Eigen::all, kOutOfPlane) = C * mean_curvature;
   Matrix9 K_plate = Matrix9::Zero();
   for (const Vector3& N : kInside) {
     const Strain9 bending = plate.make_curvature(N);
     const Shear9 shear = plate.make_shear(N);
     K_plate += t.area / 3.0 *
-               (bending.transpose() * laminate.D * bending +
+               (bending.transpose() * D * bending +
                 shear.transpose() * laminate.S * shear);
   }
-  MatrixX K = MatrixX::Zero(18, 18);
-  K(kInPlane, kInPlane) = K_membrane;
-  K(kOutOfPlane, kOutOfPlane) = K_plate;
+  MatrixX K = t.area * stretch.transpose() * laminate.A * stretch;
+  K(kInPlane, kInPlane) += make_higher_membrane(t, laminate.A);
+  K(kOutOfPlane, kOutOfPlane) += K_plate;
 
   MatrixX turn = MatrixX::Zero(18, 18);
   for (int i = 0; i < 6; ++i) turn.block<3, 3>(3 * i, 3 * i) = axes.transpose();
@@ -234,7 +235,10 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
     const Vector3 N = Vector3::Unit(i);
     MatrixX strains = MatrixX::Zero(8, 18);
     strains.topRows<3>()(Eigen::all, kInPlane) = membrane;
-    strains.middleRows<3>(3)(Eigen::all, kOutOfPlane) = plate.make_curvature(N);
+    const Strain9 curvature = plate.make_curvature(N);
+    strains.topRows<3>()(Eigen::all, kOutOfPlane) =
+        -C * (curvature - mean_curvature);
+    strains.middleRows<3>(3)(Eigen::all, kOutOfPlane) = curvature;
     strains.bottomRows<2>()(Eigen::all, kOutOfPlane) = plate.make_shear(N);
     element.strains.emplace_back(strains * turn);
     element.axes.push_back(axes);

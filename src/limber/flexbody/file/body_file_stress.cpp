@@ -87,7 +87,8 @@ void write_sections(Hdf5File& out, const SectionModes& sections) {
             "row of the node of each point");
   out.write(at + "faces", to_int64(sections.faces), "1",
             "0 bottom, 1 bottom of an inner ply, 2 middle, 3 top of an inner "
-            "ply, 4 top of a shell; 5 outline of a beam");
+            "ply, 4 top of a shell; 5 outline of a beam; 6 of a solid; 7 "
+            "inside of a beam's outline");
   out.write(at + "plies", to_int64(sections.plies), "1",
             "ply from the bottom, 0 of one alone; point on a beam's outline");
   out.write(at + "axes", sections.axes, "1",

@@ -30,9 +30,6 @@ void refuse_options(const MatrixSystem& system, const Recipe& recipe) {
   refuse(!recipe.materials.empty() && system.is_structure,
          "a material is given, and its beams and shells have their own. Give "
          "none");
-  refuse(recipe.stress && system.is_structure && !system.recover_sections,
-         "stress of solids in a model with beams and shells is not computed. "
-         "Leave it out, or reduce the solids by themselves");
   refuse(recipe.stress && !system.is_structure,
          "stress needs elements; matrices have none. Recover it in the program "
          "that wrote them, from the displacements");

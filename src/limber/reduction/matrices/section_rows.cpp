@@ -66,7 +66,7 @@ StressModes make_section_stress(const MatrixBody& meshed,
         stress.points[static_cast<std::size_t>(kept_point.point)];
     modes.rows.push_back(kept_point.row);
     modes.materials.push_back(point.property);
-    modes.on_surface.push_back(1);
+    modes.on_surface.push_back(point.on_surface ? 1 : 0);
     modes.Sigma_B.middleRows<6>(6 * i) =
         stress.stress.middleRows<6>(6 * kept_point.point);
     sections.nodes.push_back(kept_point.node);

@@ -9,7 +9,8 @@
 /// Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Stress modes of beams and shells, without an estimate of averaging.
+/// Stress modes of beams, shells and solids beside them, without an estimate of
+/// averaging.
 /// @param kept nodes whose rows are stored, sorted
 /// @param Phi modes on the system's rows [kg^-1/2]
 [[nodiscard]] StressModes make_section_stress(const MatrixBody& meshed,

@@ -20,7 +20,8 @@ bool fits_layer(const SectionModes& sections, std::size_t point,
                 const SectionSelection& section) {
   const auto face = static_cast<SectionFace>(sections.faces[point]);
   const bool has_ply = section.ply > 0;
-  if (has_ply && (face == SectionFace::outline ||
+  if (has_ply && (face == SectionFace::outline || face == SectionFace::inner ||
+                  face == SectionFace::solid ||
                   std::max(sections.plies[point], 1) != section.ply)) {
     return false;
   }
@@ -53,8 +54,8 @@ std::set<std::size_t> find_nodes(const flexbody::StressModes& modes,
                                  const std::vector<std::size_t>& there) {
   if (there.empty()) {
     throw InputError(
-        "no shell, and no beam whose section is given by dimensions, is at "
-        "this place; expected a node of one");
+        "no solid, no shell, and no beam whose section is given by dimensions, "
+        "is at this place; expected a node of one");
   }
   std::set<std::string> names;
   for (const std::size_t point : there) {
@@ -119,7 +120,10 @@ std::set<std::size_t> find_section_rows(const ReducedBody& body,
         "or select the location by 'group', 'node', 'nearest', ...",
         sections.bare_beams));
   }
-  std::set<std::size_t> rows(sections.nodes.begin(), sections.nodes.end());
+  std::set<std::size_t> rows;
+  for (std::size_t i = 0; i < sections.nodes.size(); ++i) {
+    if (body.stress->on_surface[i] != 0) rows.insert(sections.nodes[i]);
+  }
   rows.insert(sections.ends.begin(), sections.ends.end());
   return rows;
 }
