@@ -25,6 +25,10 @@ struct MeshOptions {
   double unit = 0.0;   ///< metres per mesh unit [m]; 0: the file's, or 1
   double force = 0.0;  ///< newtons per unit of force of a deck; 0: not stated
   std::vector<std::string> ignored;  ///< cards of a deck left out
+  /// Attributes of <material>, <shell> and <beam> of a robot.
+  std::vector<std::string> materials = {};
+  std::vector<std::string> shells = {};
+  std::vector<std::string> beams = {};
 };
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);
