@@ -61,7 +61,8 @@ std::string make_plate(int along, int across) {
          "Physical Curve(\"rib\") = {2};\n";
 }
 
-/// The same grid as a deck. @param property PSHELL or PCOMP 1, and materials
+/// The same grid as a deck, of sides with six digits. @param property PSHELL or
+/// PCOMP 1, and materials
 std::string make_deck(int along, int across, const std::string& property) {
   std::string text = property;
   const auto node = [&](int i, int j) { return 1 + i + j * (along + 1); };
@@ -115,19 +116,19 @@ void expect_same_matrices(const MatrixModel& a, const MatrixModel& b) {
 }
 
 TEST(SectionedMesh, OfAPlateIsTheDeckOfTheSameGrid) {
-  const auto geometry = write_file("plate.geo", make_plate(6, 4));
+  const auto geometry = write_file("plate.geo", make_plate(8, 4));
   const MeshSections sections{{{"skin", {0.01}}}, {}, {kSteel}};
   const AssembledStructure made =
       assemble(read_sectioned_mesh(geometry, {}, sections));
   const Structure deck = read_structure(write_file(
       "plate.bdf",
-      make_deck(6, 4, "MAT1,1,2.1+11,,.3,7850.\nPSHELL,1,1,.01,1,,1\n")));
+      make_deck(8, 4, "MAT1,1,2.1+11,,.3,7850.\nPSHELL,1,1,.01,1,,1\n")));
   expect_same_matrices(made.model, assemble_structure(deck, {}).model);
 }
 
 /// An unsymmetric laminate of a lamina at 0 and 30 degrees, with an offset.
 TEST(SectionedMesh, OfALaminateIsTheDeckOfTheSameGrid) {
-  const auto geometry = write_file("plate.geo", make_plate(4, 3));
+  const auto geometry = write_file("plate.geo", make_plate(4, 4));
   const double E2 = 9e9;
   const EngineeringConstants constants{
       Vector3(140e9, E2, E2), Vector3(0.3, 0.3, 0.3), Vector3(5e9, 4e9, 3e9)};
@@ -139,7 +140,7 @@ TEST(SectionedMesh, OfALaminateIsTheDeckOfTheSameGrid) {
   const AssembledStructure made =
       assemble(read_sectioned_mesh(geometry, {}, sections));
   const Structure deck = read_structure(write_file(
-      "plate.bdf", make_deck(4, 3,
+      "plate.bdf", make_deck(4, 4,
                              "MAT8,1,1.4+11,9.+9,.3,5.+9,4.+9,3.+9,1600.\n"
                              "PCOMP,1,-.0015\n,1,.002,0.,,1,.003,30.\n")));
   expect_same_matrices(made.model, assemble_structure(deck, {}).model);
