@@ -113,6 +113,12 @@ void add_material(CLI::App& command, StatedMaterial& material) {
              "A point on that axis, the origin if absent: X,Y,Z [m]");
 }
 
+/// Attributes of a region each time it is given.
+void add_regions(CLI::App& command, const char* name,
+                 std::vector<std::string>& values, const char* text) {
+  command.add_option(name, values, text)->allow_extra_args(false);
+}
+
 }  // namespace
 
 void add_model_options(CLI::App& command, MeshOptions& options) {
@@ -135,28 +141,16 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
   command.add_option("--mass", options.mass,
                      "Mass of the model of --matrices, which its program "
                      "prints: it checks their unit [kg]");
+  add_regions(command, "--shell", options.shells,
+              "Shells on a group of surfaces by the attributes of <shell>: "
+              "'group=\"Skin\" thickness=\"0.002\"' [m]; repeatable");
+  add_regions(command, "--beam", options.beams,
+              "Beams on a group of curves by the attributes of <beam>: "
+              "'group=\"Boom\" section=\"tube\" radius=\"0.05\" "
+              "wall=\"0.002\"' [m]; repeatable");
 }
 
 namespace {
-
-/// Materials, shells and beams on groups.
-void add_regions(CLI::App& command, MeshOptions& options) {
-  const auto add = [&](const char* name, std::vector<std::string>& values,
-                       const char* text) {
-    command.add_option(name, values, text)->allow_extra_args(false);
-  };
-  add("--material", options.materials,
-      "Material of a group by the attributes of <material> in a robot: "
-      "'group=\"Skin\" youngs_modulus=\"7e10\" poisson_ratio=\"0.3\" "
-      "density=\"2700\"'; repeatable");
-  add("--shell", options.shells,
-      "Shells on a group of surfaces by the attributes of <shell>: "
-      "'group=\"Skin\" thickness=\"0.002\"' [m]; repeatable");
-  add("--beam", options.beams,
-      "Beams on a group of curves by the attributes of <beam>: "
-      "'group=\"Boom\" section=\"tube\" radius=\"0.05\" wall=\"0.002\"' [m]; "
-      "repeatable");
-}
 
 void read_regions(const MeshOptions& options, flexbody::Recipe& recipe) {
   std::vector<std::string> problems;
@@ -210,7 +204,10 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
                   "A card, keyword or element type of a deck that is left out "
                   "though the body lacks it then; repeatable")
       ->allow_extra_args(false);
-  add_regions(command, options);
+  add_regions(command, "--material", options.materials,
+              "Material of a group by the attributes of <material> in a robot: "
+              "'group=\"Skin\" youngs_modulus=\"7e10\" poisson_ratio=\"0.3\" "
+              "density=\"2700\"'; repeatable");
 }
 
 namespace {

@@ -33,7 +33,7 @@ struct MeshOptions {
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
-/// The same, or matrices in place of mesh and material.
+/// The same with shells and beams, or matrices in place of mesh and material.
 void add_model_options(CLI::App& command, MeshOptions& options);
 
 /// Recipe of the mesh and its material, or of the matrices, only.
