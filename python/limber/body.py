@@ -3,6 +3,7 @@
 
 import os
 import warnings
+from xml.sax.saxutils import quoteattr
 
 from . import _core
 from .errors import LimberWarning
@@ -18,11 +19,25 @@ def _list_numbers(value):
         return [float(entry) for entry in value]
 
 
+def _write_attributes(values):
+    """A dict as attributes of an element of a robot."""
+    def write(value):
+        if isinstance(value, (str, os.PathLike)):
+            return os.fspath(value)
+        try:
+            return " ".join(str(entry) for entry in value)
+        except TypeError:
+            return str(value)
+    return " ".join(f"{name}={quoteattr(write(value))}"
+                    for name, value in dict(values).items())
+
+
 def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, shear_modulus=None,
            stiffness=None, density=None, axis_1=None, axis_2=None, cylinder_axis=None,
            cylinder_point=None, matrices=None, mass=None, recovery=(), interfaces=(),
            clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=None,
-           force_unit=None, ignore=(), second_order=False, stress=False):
+           force_unit=None, ignore=(), materials=(), shells=(), beams=(),
+           second_order=False, stress=False):
     """Reduces a mesh or geometry to a body that no longer needs the mesh, or the
     stiffness and mass matrix of a finite-element model.
 
@@ -42,6 +57,9 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, shear_modulus=
     ``force_unit``: of a deck's materials, [N] or "N", "kN", "lbf"; a deck (.bdf, .nas,
     .dat, .inp) has its own materials unless one is given; ``ignore``: its cards that
     are left out though the body lacks them then;
+    ``materials``, ``shells``, ``beams``: materials, thicknesses and sections of groups of
+    a mesh, each a dict with the attributes of ``<material>``, ``<shell>`` and ``<beam>``
+    of a robot: ``shells=[dict(group="Skin", thickness=0.002)]``;
     ``second_order``: with the tables that level nonlinear needs; ``stress``: with
     stress modes.
 
@@ -56,6 +74,7 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, shear_modulus=
                  stiffness=stiffness)
     is_deck = os.path.splitext(os.fspath(mesh or ""))[1].lower() in (
         ".bdf", ".nas", ".dat", ".inp")
+    is_deck = is_deck or bool(materials)
     is_stated = any(value is not None for value in names.values())
     if matrices is None and (is_stated or not is_deck):
         needed = dict(density=density)
@@ -80,6 +99,9 @@ def reduce(mesh=None, *, youngs_modulus=None, poisson_ratio=None, shear_modulus=
                 rows=list(rows), size=size, order=order, unit=unit,
                 force_unit=force_unit,
                 ignore=[ignore] if isinstance(ignore, str) else list(ignore),
+                materials=[_write_attributes(one) for one in materials],
+                shells=[_write_attributes(one) for one in shells],
+                beams=[_write_attributes(one) for one in beams],
                 second_order=second_order, stress=stress)
     body, notices = _core.reduce(wish)
     for text in notices:

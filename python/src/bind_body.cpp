@@ -89,6 +89,9 @@ flexbody::Recipe make_recipe(const py::dict& wish) {
   options.unit = read_unit(wish["unit"]);
   options.force = read_force_unit(wish["force_unit"]);
   options.ignored = wish["ignore"].cast<std::vector<std::string>>();
+  options.materials = wish["materials"].cast<std::vector<std::string>>();
+  options.shells = wish["shells"].cast<std::vector<std::string>>();
+  options.beams = wish["beams"].cast<std::vector<std::string>>();
   flexbody::Recipe recipe = app::make_recipe(options);
   app::ModeOptions modes;
   modes.count = py::str(wish["modes"]);

@@ -97,6 +97,63 @@ def attack_matrices(seed, limber):
     return limber.run(*words)
 
 
+TESTS = Path(__file__).resolve().parents[1]
+DECKS = [path for folder, suffix in
+         (("data/structures", ""), ("fuzz/corpus/bulk_structure", ".bdf"), ("fuzz/corpus/input_structure", ".inp"))
+         for path in sorted((TESTS / folder).iterdir()) if path.suffix in (".bdf", ".inp") or suffix]
+
+
+def attack_deck(seed, limber):
+    """A deck of beams, shells, solids and rigid parts."""
+    random = Random(f"deck {seed}")
+    deck = DECKS[seed % len(DECKS)]
+    suffix = deck.suffix or (".bdf" if "bulk" in deck.parent.name else ".inp")
+    text = mutate_text(deck.read_text(errors="replace"), random)
+    (limber.place / f"deck{suffix}").write_bytes(text.encode(errors="replace"))
+    return limber.run("modes", f"deck{suffix}", "--count", "2")
+
+
+PANEL = """\
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {1, 1, 0};
+Point(4) = {0, 1, 0};
+Point(5) = {0.5, 0, 0.5};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {2, 5};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Recombine Surface {1};
+Physical Surface("skin") = {1};
+Physical Curve("mast") = {5};
+"""
+SECTIONS = [
+    ("--material", 'group="cfrp" youngs_modulus="140e9 9e9 9e9" poisson_ratio="0.3 0.3 0.4" '
+                   'shear_modulus="5e9 5e9 3e9" density="1600"'),
+    ("--material", 'youngs_modulus="70e9" poisson_ratio="0.33" density="2700"'),
+    ("--shell", 'group="skin" thickness="0.001 0.002" angles="0 30" materials="cfrp" axis_1="1 0 0" offset="0.001"'),
+    ("--beam", 'group="mast" section="box" height="0.03" width="0.02" flange="0.002" web="0.001" y_axis="0 1 0"')]
+
+
+def attack_sections(seed, limber):
+    """Sections on groups of a geometry: the geometry, or one of its regions."""
+    random = Random(f"sections {seed}")
+    regions = list(SECTIONS)
+    geometry = PANEL
+    if seed % 3 == 0:
+        geometry = mutate_text(PANEL, random)
+    else:
+        at = random.randrange(len(regions))
+        # An argument has no zero byte and is shorter than 128 KiB.
+        regions[at] = (regions[at][0], mutate_text(regions[at][1], random).replace("\0", "0")[:100000])
+    (limber.place / "panel.geo").write_bytes(geometry.encode(errors="replace"))
+    words = [word for region in regions for word in region]
+    return limber.run("modes", "panel.geo", "--size", "0.25", "--count", "2", *words)
+
+
 # Each tries to leave a file or a process behind, or never to end.
 ORDERS = [
     'SystemCall "touch canary";',

@@ -32,6 +32,8 @@ FAMILIES = {
     "meshes": (files.attack_mesh, 800, True),
     "shapes": (files.attack_shape, 400, True),
     "matrices": (files.attack_matrices, 600, True),
+    "decks": (files.attack_deck, 600, True),
+    "sections": (files.attack_sections, 300, True),
     "settings": (settings.attack_setting, 1000, True),
     "study files": (studies.attack_study_file, 300, True),
     "tables": (studies.attack_table, 200, True),
@@ -69,7 +71,7 @@ def _run_case(job):
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     limber = Limber(program, place, worker / "cache")
-    laid = {*scene.FILES, "bar.msh", "fifo", "beam.msh", "beam.urdf", "beam.toml",
+    laid = {*scene.FILES, "deck.bdf", "deck.inp", "panel.geo", "bar.msh", "fifo", "beam.msh", "beam.urdf", "beam.toml",
             "body.h5", "bar.step", "values.txt", "matrices", *faults.ODD_PLACES}
     try:
         ended = FAMILIES[family][0](number, limber)

@@ -38,7 +38,8 @@ def main():
     keys = list_keys(json.loads((source / SCHEMA).read_text()))
     problems += [f"{SCHEMA}: '{key}' is not in {SCENARIO_PAGES[0]}" for key in sorted(keys - words)]
     words, count = read_words(ROBOT_PAGES), len(keys)
-    for file in sorted((source / "src/limber/scene/robot").glob("*.cpp")):
+    scene = source / "src/limber/scene"
+    for file in [*sorted((scene / "robot").glob("*.cpp")), scene / "text/section_reader.cpp"]:
         for key in sorted(set(READ.findall(file.read_text()))):
             count += 1
             if key not in words:

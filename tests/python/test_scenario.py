@@ -277,6 +277,23 @@ def test_a_deck_of_shells_has_its_material_and_the_frequencies_of_calculix():
         limber.reduce(deck, youngs_modulus=1e9, poisson_ratio=0.3, density=1e3)
 
 
+def test_surfaces_and_curves_of_a_geometry_become_shells_and_beams(tmp_path):
+    (tmp_path / "panel.geo").write_text(
+        "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0};\nPoint(3) = {1, 1, 0};\nPoint(4) = {0, 1, 0};\n"
+        "Point(5) = {2, 0, 0};\nLine(1) = {1, 2};\nLine(2) = {2, 3};\nLine(3) = {3, 4};\nLine(4) = {4, 1};\n"
+        "Line(5) = {2, 5};\nCurve Loop(1) = {1, 2, 3, 4};\nPlane Surface(1) = {1};\n"
+        "Physical Surface(\"skin\") = {1};\nPhysical Curve(\"mast\") = {5};\n")
+    materials = [dict(youngs_modulus=7e10, poisson_ratio=0.3, density=2700.0),
+                 dict(group="skin", youngs_modulus=[140e9, 9e9, 9e9], poisson_ratio=[0.3, 0.3, 0.4],
+                      shear_modulus=[5e9, 5e9, 3e9], density=1600.0)]
+    beams = [dict(group="mast", section="rectangle", height=0.03, width=0.02, y_axis=[0, 0, 1])]
+    body = limber.reduce(tmp_path / "panel.geo", size=0.25, materials=materials, beams=beams, modes=2,
+                         shells=[dict(group="skin", thickness=0.001, angles=[0, 90, 0])])
+    assert body.mass == pytest.approx(1600.0 * 0.003 + 2700.0 * 0.03 * 0.02)
+    with pytest.raises(limber.InputError, match="no thickness"):
+        limber.reduce(tmp_path / "panel.geo", size=0.25, materials=materials[:1], beams=beams)
+
+
 def test_a_deck_of_solids_has_its_material_masses_and_supports():
     deck = SOURCE / "tests/data/attachments/masses.bdf"
     body = limber.reduce(deck, unit="mm", clamps=["spc:12"], modes=3)

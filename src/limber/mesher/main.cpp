@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limber-mesh FILE SIZE ORDER UNIT: meshes one file by Gmsh; the only program
-// that links it. Started by Limber; writes the mesh to descriptor 3, see
-// fem/mesh/mesher.hpp.
+// limber-mesh FILE SIZE ORDER UNIT FORCE SURFACES: meshes one file by Gmsh; the
+// only program that links it. Started by Limber; writes the mesh to descriptor
+// 3, see fem/mesh/mesher.hpp.
 #include <unistd.h>
 
 #include <charconv>
@@ -82,21 +82,20 @@ bool send(const std::string& bytes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 6) {
+  if (argc < 7) {
     std::fprintf(
         stderr,
-        "usage: limber-mesh FILE SIZE ORDER UNIT FORCE [IGNORED ...], mesh to "
-        "descriptor %d\n",
+        "usage: limber-mesh FILE SIZE ORDER UNIT FORCE SURFACES [IGNORED ...], "
+        "mesh to descriptor %d\n",
         limber::kReplyDescriptor);
     return kUsage;
   }
   std::set_new_handler(end_out_of_memory);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const limber::fem::MeshOptions options{read_number<double>(argv[2]),
-                                         read_number<int>(argv[3]),
-                                         read_number<double>(argv[4]),
-                                         read_number<double>(argv[5]),
-                                         {argv + 6, argv + argc}};
+  const limber::fem::MeshOptions options{
+      read_number<double>(argv[2]), read_number<int>(argv[3]),
+      read_number<double>(argv[4]), read_number<double>(argv[5]),
+      {argv + 7, argv + argc},      read_number<int>(argv[6]) != 0};
   // A geometry's relative paths start at its own folder.
   const std::string folder = std::filesystem::path(argv[1]).parent_path();
   if (!folder.empty() && chdir(folder.c_str()) != 0) std::perror("chdir");

@@ -269,9 +269,12 @@ ReducedBody reduce(const Recipe& recipe,
 Reducer make_reducer(const Progress& progress) {
   const auto make_mesh = [progress](const MeshSource& source) {
     if (!source.is_matrices() && is_node_model(source)) {
-      std::vector<std::filesystem::path> paths;
-      const auto part = read_matrix_part(source, progress, &paths);
-      return at_hand(part, stamp_files(paths), progress);
+      PartOrigin origin;
+      const auto part = read_matrix_part(source, progress, &origin);
+      if (source.sections.empty()) origin.stamps = stamp_files(origin.paths);
+      MeshAtHand made = at_hand(part, std::move(origin.stamps), progress);
+      made.record.is_repeatable = origin.is_repeatable;
+      return made;
     }
     if (source.is_matrices()) {
       // Before they are read, so that a change meanwhile is noticed.

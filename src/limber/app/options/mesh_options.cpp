@@ -9,6 +9,8 @@
 #include "limber/app/options/shared_options.hpp"
 #include "limber/common/deck_name.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/scene/robot/flexible_reader.hpp"
+#include "limber/scene/text/section_reader.hpp"
 
 namespace limber::app {
 namespace {
@@ -28,9 +30,9 @@ void check_isotropic(const StatedMaterial& m,
                     nu));
 }
 
-void check_material(const StatedMaterial& m, bool is_deck,
+void check_material(const StatedMaterial& m, bool is_stated,
                     std::vector<std::string>& problems) {
-  if (is_deck && m.is_empty()) return;  // the deck's
+  if (is_stated && m.is_empty()) return;  // elsewhere
   try {
     static_cast<void>(make_material(m));
     if (!m.is_anisotropic()) check_isotropic(m, problems);
@@ -48,7 +50,9 @@ void check(const MeshOptions& options) {
   const auto require = [&](bool fine, const std::string& text) {
     if (!fine) problems.push_back(text);
   };
-  check_material(options.material, has_deck_name(options.file), problems);
+  check_material(options.material,
+                 has_deck_name(options.file) || !options.materials.empty(),
+                 problems);
   require(options.force >= 0.0 && std::isfinite(options.force),
           fmt::format("--force-unit is {} N; expected > 0", options.force));
   require(options.size >= 0.0,
@@ -109,6 +113,12 @@ void add_material(CLI::App& command, StatedMaterial& material) {
              "A point on that axis, the origin if absent: X,Y,Z [m]");
 }
 
+/// Attributes of a region each time it is given.
+void add_regions(CLI::App& command, const char* name,
+                 std::vector<std::string>& values, const char* text) {
+  command.add_option(name, values, text)->allow_extra_args(false);
+}
+
 }  // namespace
 
 void add_model_options(CLI::App& command, MeshOptions& options) {
@@ -131,7 +141,47 @@ void add_model_options(CLI::App& command, MeshOptions& options) {
   command.add_option("--mass", options.mass,
                      "Mass of the model of --matrices, which its program "
                      "prints: it checks their unit [kg]");
+  add_regions(command, "--shell", options.shells,
+              "Shells on a group of surfaces by the attributes of <shell>: "
+              "'group=\"Skin\" thickness=\"0.002\"' [m]; repeatable");
+  add_regions(command, "--beam", options.beams,
+              "Beams on a group of curves by the attributes of <beam>: "
+              "'group=\"Boom\" section=\"tube\" radius=\"0.05\" "
+              "wall=\"0.002\"' [m]; repeatable");
 }
+
+namespace {
+
+void read_regions(const MeshOptions& options, flexbody::Recipe& recipe) {
+  std::vector<std::string> problems;
+  const auto read_each = [&](const char* option, const char* tag,
+                             const std::vector<std::string>& texts,
+                             const scene::XmlElement::Reader& read) {
+    for (const std::string& text : texts) try {
+        scene::read_attributes(option, tag, text, read);
+      } catch (const InputError& error) {
+        problems.insert(problems.end(), error.problems().begin(),
+                        error.problems().end());
+      }
+  };
+  flexbody::SectionSource& sections = recipe.mesh.sections;
+  read_each("--material", "material", options.materials,
+            [&](scene::XmlElement& element) {
+              for (auto& region : scene::read_material(element, ""))
+                recipe.materials.push_back(std::move(region));
+            });
+  read_each("--shell", "shell", options.shells,
+            [&](scene::XmlElement& element) {
+              sections.shells.push_back(scene::read_shell(element));
+            });
+  read_each("--beam", "beam", options.beams, [&](scene::XmlElement& element) {
+    sections.beams.push_back(scene::read_beam(element));
+  });
+  if (!problems.empty()) throw InputError(problems);
+  if (!sections.empty()) sections.materials = recipe.materials;
+}
+
+}  // namespace
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command
@@ -154,6 +204,10 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
                   "A card, keyword or element type of a deck to leave out, "
                   "although the body then lacks it; repeatable")
       ->allow_extra_args(false);
+  add_regions(command, "--material", options.materials,
+              "Material of a group by the attributes of <material> in a robot: "
+              "'group=\"Skin\" youngs_modulus=\"7e10\" poisson_ratio=\"0.3\" "
+              "density=\"2700\"'; repeatable");
 }
 
 namespace {
@@ -166,8 +220,11 @@ void check_matrices(const MeshOptions& options) {
   require(options.file.empty(),
           fmt::format("'{}' is a mesh, and --matrices is given; keep one",
                       options.file));
-  require(options.material.is_empty(),
-          "--youngs-modulus, --poisson-ratio, --density and other constants go "
+  require(options.shells.empty() && options.beams.empty(),
+          "--shell and --beam go with a mesh; --matrices have theirs");
+  require(options.material.is_empty() && options.materials.empty(),
+          "--material, --youngs-modulus, --poisson-ratio, --density and other "
+          "constants go "
           "with a mesh; --matrices have their material");
   require(options.size == 0.0 && options.order == 0 && options.force == 0.0 &&
               options.ignored.empty(),
@@ -214,6 +271,7 @@ flexbody::Recipe make_recipe(const MeshOptions& options) {
   recipe.mesh.ignored = options.ignored;
   if (!options.material.is_empty())
     recipe.materials = {{"", make_material(options.material)}};
+  read_regions(options, recipe);
   return recipe;
 }
 

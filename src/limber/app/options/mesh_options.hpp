@@ -25,11 +25,15 @@ struct MeshOptions {
   double unit = 0.0;   ///< metres per mesh unit [m]; 0: the file's, or 1
   double force = 0.0;  ///< newtons per unit of force of a deck; 0: not stated
   std::vector<std::string> ignored;  ///< cards of a deck left out
+  /// Attributes of <material>, <shell> and <beam> of a robot.
+  std::vector<std::string> materials = {};
+  std::vector<std::string> shells = {};
+  std::vector<std::string> beams = {};
 };
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
-/// The same, or matrices in place of mesh and material.
+/// The same with shells and beams, or matrices in place of mesh and material.
 void add_model_options(CLI::App& command, MeshOptions& options);
 
 /// Recipe of the mesh and its material, or of the matrices, only.

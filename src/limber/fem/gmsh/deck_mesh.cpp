@@ -130,7 +130,7 @@ RawMesh make_deck_mesh(const std::filesystem::path& file, SolidDeck deck,
         "wedges or pyramids.",
         file.string()));
   for (auto& [type, block] : deck.solids) block = sort_by_region(block);
-  const NodeIndex index(deck.solids);
+  const NodeIndex index({deck.solids});
   RawMesh raw;
   raw.notices = std::move(deck.notices);
   Mesh& mesh = raw.mesh;

@@ -50,10 +50,26 @@ void guarded(const GmshSession& session, const std::filesystem::path& file,
                                  : fmt::format("{}", fmt::join(errors, "; "))));
 }
 
-bool has_solids() {
+bool has_elements(int dimension) {
   std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 3);
+  gmsh::model::mesh::getElementTypes(types, dimension);
   return !types.empty();
+}
+
+bool has_volumes() {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  return !volumes.empty();
+}
+
+/// Beams and shells are of first order, and so is a mesh of them alone, unless
+/// the geometry wants another.
+void open_geometry(GmshSession& session, const std::filesystem::path& file,
+                   const MeshOptions& options) {
+  session.open(file);
+  if (!options.with_surfaces || has_volumes()) return;
+  gmsh::option::setNumber("Mesh.ElementOrder", 1);
+  session.open(file);
 }
 
 void mesh_geometry(const std::filesystem::path& file,
@@ -65,7 +81,8 @@ void mesh_geometry(const std::filesystem::path& file,
   }
   if (options.order > 0)
     gmsh::option::setNumber("Mesh.ElementOrder", options.order);
-  if (has_solids()) return;
+  const int dimension = gmsh::model::getDimension();
+  if (has_elements(options.with_surfaces ? dimension : 3)) return;
   if (note) note(estimate_element_count(options.size));
   gmsh::model::mesh::generate(3);
 }
@@ -114,7 +131,9 @@ std::vector<RawGroup> read_groups() {
   gmsh::model::getEntities(surfaces, 2);
   throw InputError(fmt::format(
       "{}: the geometry has {} but no volume, so no solid elements. Expected a "
-      "closed solid; a .geo needs its Volume.",
+      "closed solid; a .geo needs its Volume; or a <shell>, which gives "
+      "surfaces "
+      "a thickness.",
       file.string(), surfaces.empty() ? "no surfaces" : "surfaces"));
 }
 
@@ -132,8 +151,7 @@ std::vector<RawGroup> read_groups() {
 }
 
 /// Solid elements of the whole model, and which groups each volume is in.
-RawBlocks read_solids(const std::filesystem::path& file,
-                      const std::vector<RawGroup>& groups, bool is_geometry,
+RawBlocks read_solids(const std::vector<RawGroup>& groups, bool is_geometry,
                       Mesh& mesh) {
   const bool only_grouped =
       is_geometry && std::any_of(groups.begin(), groups.end(),
@@ -152,7 +170,30 @@ RawBlocks read_solids(const std::filesystem::path& file,
                   static_cast<int>(mesh.volume_groups.size()));
     mesh.volume_groups.push_back(names);
   }
-  if (blocks.empty()) fail_without_solids(file, is_geometry);
+  return blocks;
+}
+
+/// All elements of curves (1) or surfaces (2). Of a geometry with groups only
+/// those in groups, as when Gmsh saves a mesh.
+RawBlocks read_part(const std::vector<RawGroup>& groups, int dimension,
+                    bool is_geometry) {
+  const bool only_grouped =
+      is_geometry && std::any_of(groups.begin(), groups.end(),
+                                 [](auto& g) { return g.dimension > 0; });
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  RawBlocks blocks;
+  for (const auto& one : entities) {
+    const int entity = one.second;
+    const bool is_grouped =
+        std::any_of(groups.begin(), groups.end(), [&](const RawGroup& group) {
+          return group.dimension == dimension &&
+                 std::count(group.entities.begin(), group.entities.end(),
+                            entity) > 0;
+        });
+    if (is_grouped || !only_grouped)
+      append_entity(blocks, dimension, entity, 0);
+  }
   return blocks;
 }
 
@@ -183,9 +224,19 @@ Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
   Mesh mesh;
   mesh.source = file.string();
   const std::vector<RawGroup> groups = read_groups();
-  const RawBlocks solids = read_solids(file, groups, is_geometry, mesh);
-  const NodeIndex index(solids);
+  const RawBlocks solids = read_solids(groups, is_geometry, mesh);
+  std::vector<RawBlocks> parts = {solids};
+  if (options.with_surfaces)
+    for (const int dimension : {1, 2})
+      parts.push_back(read_part(groups, dimension, is_geometry));
+  else if (solids.empty())
+    fail_without_solids(file, is_geometry);
+  const NodeIndex index(parts);
   ElementTypes types(mesh.source);
+  for (std::size_t dimension = 1; dimension < parts.size(); ++dimension)
+    if (!parts[dimension].empty())
+      mesh.groups.push_back(make_group("", static_cast<int>(dimension),
+                                       parts[dimension], index, types));
   for (const auto& [type, block] : solids)
     mesh.blocks.push_back(make_block(block, index, types));
   for (const RawGroup& raw : groups) {
@@ -261,7 +312,12 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);
-  guarded(session, file, "read", [&] { session.open(file); });
+  guarded(session, file, "read", [&] {
+    if (is_geometry)
+      open_geometry(session, file, options);
+    else
+      session.open(file);
+  });
   gmsh::option::setNumber("General.NumThreads", 1);
   RawMesh raw;
   if (is_geometry)
@@ -273,7 +329,8 @@ RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
       straighten_curved(file, options, raw);
     } else {
       if (content) check_counts(file, *content);
-      raw.notices = find_mesh_losses(session, file, raw.mesh);
+      if (!options.with_surfaces)
+        raw.notices = find_mesh_losses(session, file, raw.mesh);
     }
   });
   raw.notices.insert(raw.notices.end(), notices.begin(), notices.end());

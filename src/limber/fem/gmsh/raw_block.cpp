@@ -25,9 +25,10 @@ std::shared_ptr<const ReferenceElement> ElementTypes::make(
   }
 }
 
-NodeIndex::NodeIndex(const RawBlocks& solids) {
-  for (const auto& [type, block] : solids)
-    for (const std::size_t tag : block.nodes) used_.insert(tag);
+NodeIndex::NodeIndex(const std::vector<RawBlocks>& parts) {
+  for (const RawBlocks& part : parts)
+    for (const auto& [type, block] : part)
+      used_.insert(block.nodes.begin(), block.nodes.end());
   int next = 0;
   for (const std::size_t tag : used_) index_[tag] = next++;
 }

@@ -38,10 +38,10 @@ class ElementTypes {
   std::map<int, std::shared_ptr<const ReferenceElement>> types_;
 };
 
-/// Index of each node tag that a solid element uses; -1 elsewhere.
+/// Index of each node tag that an element of the parts uses; -1 elsewhere.
 class NodeIndex {
  public:
-  explicit NodeIndex(const RawBlocks& solids);
+  explicit NodeIndex(const std::vector<RawBlocks>& parts);
   [[nodiscard]] int of(std::size_t tag) const {
     const auto found = index_.find(tag);
     return found == index_.end() ? -1 : found->second;
@@ -53,7 +53,7 @@ class NodeIndex {
   std::unordered_map<std::size_t, int> index_;
 };
 
-/// With nodes as indices; elements off the solid are omitted.
+/// With nodes as indices; elements with other nodes are omitted.
 [[nodiscard]] ElementBlock make_block(const RawBlock& raw,
                                       const NodeIndex& index,
                                       ElementTypes& types);

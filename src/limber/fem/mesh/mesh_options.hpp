@@ -18,6 +18,9 @@ struct MeshOptions {
   double force = 0.0;
   /// Cards of a deck (keywords, elements) that may be left out.
   std::vector<std::string> ignored = {};
+  /// Elements of surfaces and curves with their nodes, too, all of a dimension
+  /// as a group without name; there may be no solids.
+  bool with_surfaces = false;
 };
 
 }  // namespace limber::fem

@@ -256,7 +256,7 @@ WireMesh to_wire(const Mesh& mesh) {
 void check_solids(const Mesh& mesh) {
   require(mesh.tags.size() == static_cast<std::size_t>(mesh.x.cols()));
   require(mesh.x.allFinite());
-  require(mesh.element_count() > 0 &&
+  require(!mesh.tags.empty() &&
           std::is_sorted(mesh.tags.begin(), mesh.tags.end()));
   for (const ElementBlock& block : mesh.blocks) {
     require(block.element->dimension == 3 &&

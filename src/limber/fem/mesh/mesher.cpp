@@ -201,10 +201,12 @@ std::string identify_mesher() {
 MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
                      const MeshOptions& options, const Progress& progress) {
   const std::filesystem::path place = std::filesystem::absolute(file);
-  std::vector<std::string> arguments = {
-      place.string(), fmt::format("{}", options.size),
-      fmt::format("{}", options.order), fmt::format("{}", options.unit),
-      fmt::format("{}", options.force)};
+  std::vector<std::string> arguments = {place.string(),
+                                        fmt::format("{}", options.size),
+                                        fmt::format("{}", options.order),
+                                        fmt::format("{}", options.unit),
+                                        fmt::format("{}", options.force),
+                                        options.with_surfaces ? "1" : "0"};
   arguments.insert(arguments.end(), options.ignored.begin(),
                    options.ignored.end());
   const ChildEnd end = run_child(
@@ -226,6 +228,9 @@ MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
   if (!reply.problems.empty()) {
     throw InputError(rename(reply.problems, place, file));
   }
+  if (reply.mesh.element_count() == 0 && !options.with_surfaces)
+    throw InputError(
+        fmt::format("{}: the mesher's answer has no solids", file.string()));
   reply.notices = rename(reply.notices, place, file);
   reply.mesh.source = file.string();
   return reply;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
@@ -17,6 +18,7 @@
 #include "limber/fem/nastran/bulk_card.hpp"
 #include "limber/fem/nastran/card_effect.hpp"
 #include "limber/fem/nastran/grid_table.hpp"
+#include "limber/fem/nastran/mid_side_nodes.hpp"
 #include "limber/fem/nastran/solid_attachments.hpp"
 #include "limber/fem/nastran/solid_card.hpp"
 #include "limber/fem/nastran/solid_materials.hpp"
@@ -127,12 +129,15 @@ class BulkReader {
     block.nodes_each = static_cast<int>(nodes->size());
     block.elements.push_back(static_cast<std::size_t>(*id));
     block.regions.push_back(*property);
+    if (!is_linear)
+      mid_sides_.add(solid, *nodes, block.nodes.size(),
+                     fmt::format("{} {}", card.name, *id));
     for (std::size_t i = 0; i < nodes->size(); ++i)
       block.nodes.push_back((*nodes)[static_cast<std::size_t>(solid.order[i])]);
     lines_[type].push_back(card.line);
   }
 
-  /// All corners, and all or none of the mid-side nodes.
+  /// All corners, and none or all of the mid-side nodes, 0 where one is blank.
   std::optional<std::vector<std::size_t>> read_nodes(const BulkCard& card,
                                                      const SolidCard& solid) {
     constexpr std::size_t kFirst = 2;
@@ -145,9 +150,8 @@ class BulkReader {
       const std::optional<int> node = card.integer(kFirst + i, 0, problems_);
       if (!node) return std::nullopt;
       // 0 as a mid-side node is the same as blank
-      if (*node > 0) {
-        nodes.push_back(static_cast<std::size_t>(*node));
-      } else if (*node < 0 || i < corners) {
+      nodes.push_back(static_cast<std::size_t>(std::max(*node, 0)));
+      if (*node < 0 || (*node == 0 && i < corners)) {
         problems_.add(*card.line,
                       fmt::format("{}'s node G{} is blank or below 1. Expected "
                                   "a GRID.",
@@ -155,25 +159,25 @@ class BulkReader {
         return std::nullopt;
       }
     }
-    if (count > all || (nodes.size() != corners && nodes.size() != all)) {
+    if (count > all || count < corners) {
       problems_.add(
           *card.line,
-          fmt::format("{} has {} nodes. Expected {} corners, and none or all "
-                      "{} mid-side nodes: an element with some of them is not "
-                      "supported, give the others their places in the middle "
-                      "of the edges.",
-                      card.name, nodes.size(), corners, all - corners));
+          fmt::format("{} has {} nodes. Expected {} corners, and none "
+                      "or up to {} mid-side nodes.",
+                      card.name, count, corners, all - corners));
       return std::nullopt;
     }
-    if (std::set<std::size_t>(nodes.begin(), nodes.end()).size() !=
-        nodes.size()) {
-      problems_.add(*card.line,
-                    fmt::format("{} has a node twice. Expected different "
-                                "nodes; a collapsed element is a CPENTA, "
-                                "CPYRAM or CTETRA.",
-                                card.name));
-      return std::nullopt;
-    }
+    std::set<std::size_t> once;
+    for (const std::size_t node : nodes)
+      if (node > 0 && !once.insert(node).second) {
+        problems_.add(*card.line,
+                      fmt::format("{} has a node twice. Expected different "
+                                  "nodes; a collapsed element is a CPENTA, "
+                                  "CPYRAM or CTETRA.",
+                                  card.name));
+        return std::nullopt;
+      }
+    nodes.resize(once.size() > corners ? all : corners, 0);
     return nodes;
   }
 
@@ -218,6 +222,12 @@ class BulkReader {
       data_.x.col(static_cast<Eigen::Index>(i)) =
           grids_.find_position(grids_.grids().at(ids[i]));
     check_nodes();
+    problems_.check();
+    for (std::string& notice : mid_sides_.fill(deck_.files[0].string(), data_))
+      data_.notices.push_back(std::move(notice));
+    for (const auto& [type, block] : data_.solids)
+      for (const std::size_t node : block.nodes)
+        used_.insert(static_cast<int>(node));
   }
 
   /// Every element's nodes are there.
@@ -226,8 +236,9 @@ class BulkReader {
       const std::vector<const DeckLine*>& lines = lines_[type];
       const auto each = static_cast<std::size_t>(block.nodes_each);
       for (std::size_t i = 0; i < block.nodes.size(); ++i) {
-        used_.insert(static_cast<int>(block.nodes[i]));
-        if (grids_.grids().contains(static_cast<int>(block.nodes[i]))) continue;
+        if (block.nodes[i] == 0 ||
+            grids_.grids().contains(static_cast<int>(block.nodes[i])))
+          continue;
         problems_.add(*lines[i / each],
                       fmt::format("element {} has node {}, which is missing. "
                                   "Expected its GRID.",
@@ -321,6 +332,7 @@ class BulkReader {
   SolidMaterials materials_;
   SolidAttachments attachments_;
   SolidDeck data_;
+  MidSideNodes mid_sides_;
   std::map<int, std::vector<const DeckLine*>> lines_;  // of data_.solids
   std::unordered_set<int> elements_;
   std::unordered_set<int> used_;

@@ -12,7 +12,8 @@ namespace limber::fem {
 /// MSC Nastran Quick Reference Guide, "Bulk Data Entries".
 /// @throws InputError with file and line of all that is wrong, and of other
 /// elements, which would be lost: shells, beams, masses, rigid elements; of
-/// constraints between points (MPC); and of blank mid-side nodes
+/// constraints between points (MPC). Blank mid-side nodes of an element of
+/// second order are filled (MidSideNodes), with a notice
 /// @param ignored names of such cards that are left out, with a notice
 /// @returns each property (PID) as a region and a volume group of its number,
 /// with its material (MAT1, MAT9, MAT11)

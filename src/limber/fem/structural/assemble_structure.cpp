@@ -247,8 +247,10 @@ class StructureAssembler {
 
   void sum_matrices() {
     StructuralMatrices solid;
-    if (!solids_.mesh.blocks.empty())
+    if (!solids_.mesh.blocks.empty()) {
       solid = assemble_elements(solids_.mesh, solids_.materials);
+      result_.mass += solids_.unit * solid.M_s.sum();
+    }
     MatrixModel& model = result_.model;
     const Sparse T = map_;
     const Sparse K = reduce(list_stiffness(solid), T);
@@ -261,7 +263,6 @@ class StructureAssembler {
           reduce(list_moment(solid, kPlaces[i][0], kPlaces[i][1]), T);
     const Sparse M = model.moments[0] + model.moments[1] + model.moments[2];
     model.mass = {structure_.source, 0.5 * (M + Sparse(M.transpose())), 17};
-    result_.mass += solids_.unit * solid.M_s.sum();
   }
 
   [[nodiscard]] Triplets list_stiffness(const StructuralMatrices& solid) const {

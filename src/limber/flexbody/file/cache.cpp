@@ -53,20 +53,7 @@ void add_selection(const NodeSelection& nodes, Digest& digest) {
 }
 
 void add_request(const Recipe& recipe, Digest& digest) {
-  digest.add(recipe.materials.size());
-  for (const MaterialRegion& region : recipe.materials) {
-    digest.add(region.group);
-    digest.add(region.material.youngs_modulus);
-    digest.add(region.material.poisson_ratio);
-    digest.add(region.material.density);
-    if (!region.material.anisotropy) continue;
-    const Anisotropy& anisotropy = *region.material.anisotropy;
-    digest.add(std::string("anisotropy"));
-    digest.add(MatrixX(anisotropy.C));
-    digest.add(anisotropy.axes.is_cylindrical);
-    digest.add(MatrixX(anisotropy.axes.directions));
-    digest.add(anisotropy.axes.point);
-  }
+  add_materials(recipe.materials, digest);
   digest.add(recipe.clamped_groups.size());
   for (const std::string& group : recipe.clamped_groups) digest.add(group);
   digest.add(recipe.interfaces.size());
@@ -163,11 +150,11 @@ void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
 
 // With stress modes, so that a later run that requests stress need not reduce
 // it again; those of a manifold are many times larger, and computed on demand.
-// Matrices, and decks of beams and shells, which bring their materials, have
-// none.
+// Matrices, and beams and shells, have none.
 ReducedBody reduce_for_all(const MeshAtHand& mesh, Recipe recipe) {
   recipe.stress |= !recipe.manifold && !recipe.is_estimate &&
-                   !recipe.mesh.is_matrices() && !recipe.materials.empty();
+                   !recipe.mesh.is_matrices() && recipe.mesh.sections.empty() &&
+                   !recipe.materials.empty();
   return mesh.reduce(recipe);
 }
 

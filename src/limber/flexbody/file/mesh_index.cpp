@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <system_error>
 
 #include "limber/common/files/sealed_file.hpp"
@@ -39,12 +40,60 @@ std::string find_request(const MeshSource& mesh) {
   return digest.text();
 }
 
+void add_vector(const std::optional<Vector3>& vector, Digest& digest) {
+  digest.add(vector.has_value());
+  if (vector) digest.add(*vector);
+}
+
+void add_sections(const SectionSource& sections, Digest& digest) {
+  digest.add(sections.shells.size());
+  for (const ShellRegion& region : sections.shells) {
+    digest.add(region.group);
+    digest.add(region.thicknesses);
+    digest.add(region.angles);
+    digest.add(region.materials.size());
+    for (const std::string& name : region.materials) digest.add(name);
+    add_vector(region.axis_1, digest);
+    digest.add(region.offset);
+  }
+  digest.add(sections.beams.size());
+  for (const BeamRegion& region : sections.beams) {
+    digest.add(region.group);
+    digest.add(region.section);
+    for (const auto& [name, value] : region.sizes) {
+      digest.add(name);
+      digest.add(value);
+    }
+    add_vector(region.y_axis, digest);
+    digest.add(region.offset);
+  }
+  add_materials(sections.materials, digest);
+}
+
 std::filesystem::path find_index_place(const std::string& request,
                                        const std::filesystem::path& folder) {
   return folder / (request + ".mesh");
 }
 
 }  // namespace
+
+void add_materials(const std::vector<MaterialRegion>& materials,
+                   Digest& digest) {
+  digest.add(materials.size());
+  for (const MaterialRegion& region : materials) {
+    digest.add(region.group);
+    digest.add(region.material.youngs_modulus);
+    digest.add(region.material.poisson_ratio);
+    digest.add(region.material.density);
+    if (!region.material.anisotropy) continue;
+    const Anisotropy& anisotropy = *region.material.anisotropy;
+    digest.add(std::string("anisotropy"));
+    digest.add(MatrixX(anisotropy.C));
+    digest.add(anisotropy.axes.is_cylindrical);
+    digest.add(MatrixX(anisotropy.axes.directions));
+    digest.add(anisotropy.axes.point);
+  }
+}
 
 void add_source_options(const MeshSource& source, Digest& digest) {
   digest.add(source.size);
@@ -56,6 +105,7 @@ void add_source_options(const MeshSource& source, Digest& digest) {
   for (const auto* paths : {&source.matrices.paths, &source.matrices.recovery})
     for (const std::filesystem::path& path : *paths)
       digest.add(std::filesystem::absolute(path).string());
+  if (!source.sections.empty()) add_sections(source.sections, digest);
 }
 
 std::filesystem::path read_mesh_file(const std::filesystem::path& record) {

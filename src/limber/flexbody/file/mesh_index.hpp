@@ -27,6 +27,10 @@ struct MeshRecord {
   bool is_repeatable = false;    ///< whether it depends on these only
 };
 
+/// Adds all that determines them.
+void add_materials(const std::vector<MaterialRegion>& materials,
+                   Digest& digest);
+
 /// Adds all that a source states besides its file.
 void add_source_options(const MeshSource& source, Digest& digest);
 

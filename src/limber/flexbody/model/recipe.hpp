@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limber/common/material/section_regions.hpp"
 #include "limber/common/material/solid_material.hpp"
 #include "limber/common/types.hpp"
 #include "limber/flexbody/model/full_body.hpp"
@@ -26,6 +27,16 @@ using Material = SolidMaterial;
 struct MaterialRegion {
   std::string group;
   Material material;
+};
+
+/// Shells and beams on groups of a mesh, with their materials, which are those
+/// of its solids, too.
+struct SectionSource {
+  std::vector<ShellRegion> shells;
+  std::vector<BeamRegion> beams;
+  std::vector<MaterialRegion> materials;
+
+  [[nodiscard]] bool empty() const { return shells.empty() && beams.empty(); }
 };
 
 /// A finite-element model given by its matrices, in place of a mesh.
@@ -50,6 +61,7 @@ struct MeshSource {
   MatrixSource matrices = {};
   double force = 0.0;  ///< newtons per unit of force of a deck; 0: not stated
   std::vector<std::string> ignored = {};  ///< cards of a deck left out
+  SectionSource sections = {};  ///< empty: the mesh is of solids, or a deck
 
   [[nodiscard]] bool is_matrices() const { return !matrices.paths.empty(); }
 };

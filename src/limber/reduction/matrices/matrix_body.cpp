@@ -27,7 +27,8 @@ void refuse_options(const MatrixSystem& system, const Recipe& recipe) {
          "second-order kinematics (level nonlinear) need the elements' "
          "nonlinear strain; matrices, beams and shells here are of small "
          "strain. Use level coupled");
-  refuse(!recipe.materials.empty() && system.is_structure,
+  refuse(!recipe.materials.empty() && system.is_structure &&
+             recipe.mesh.sections.empty(),
          "a material is given, and its beams and shells have their own. Give "
          "none");
   refuse(recipe.stress && !system.is_structure,

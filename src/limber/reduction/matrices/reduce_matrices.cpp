@@ -9,6 +9,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/matrices/read_matrices.hpp"
+#include "limber/fem/sections/sectioned_mesh.hpp"
 #include "limber/fem/structural/assemble_structure.hpp"
 #include "limber/fem/structural/read_structure.hpp"
 #include "limber/reduction/matrices/matrix_inertia.hpp"
@@ -94,10 +95,50 @@ void add_interfaces(const MatrixBody& meshed, const StaticModes& modes,
   }
 }
 
-/// Beams and shells.
-std::shared_ptr<const MatrixPart> read_structure_part(
-    const MeshSource& source, double unit, const Progress& progress,
-    std::vector<std::filesystem::path>* files) {
+/// @param structure in lengths of `unit`
+std::shared_ptr<const MatrixPart> assemble_part(
+    const fem::Structure& structure, const fem::StructureSolids& solids,
+    double unit, const Progress& progress) {
+  report(progress, "assembling", 0.0);
+  fem::AssembledStructure assembled =
+      fem::assemble_structure(structure, solids);
+  if (!(assembled.mass > 0.0))
+    throw InputError(
+        fmt::format("{}: its elements have no mass. Expected the density of "
+                    "its materials (RHO, *DENSITY).",
+                    structure.source));
+  return make_matrix_part(std::move(assembled.model), assembled.mass / unit,
+                          unit, progress);
+}
+
+/// Beams and shells on groups of a mesh.
+std::shared_ptr<const MatrixPart> read_sectioned_part(const MeshSource& source,
+                                                      const Progress& progress,
+                                                      PartOrigin* origin) {
+  if (source.force > 0.0 || !source.ignored.empty())
+    throw InputError(fmt::format(
+        "{}: a unit of force or cards to ignore were given, which go with a "
+        "deck. Expected none.",
+        source.file.string()));
+  fem::MeshSections sections{source.sections.shells, source.sections.beams, {}};
+  for (const MaterialRegion& region : source.sections.materials)
+    sections.materials.push_back({region.group, region.material});
+  report(progress, "reading the mesh", 0.0);
+  fem::SectionedMesh made = fem::read_sectioned_mesh(
+      source.file, {source.size, source.order, source.unit}, sections,
+      progress);
+  if (origin != nullptr) {
+    origin->stamps = std::move(made.files);
+    origin->is_repeatable = made.is_repeatable;
+  }
+  return assemble_part(made.structure, made.solids, 1.0, progress);
+}
+
+/// Beams and shells of a deck.
+std::shared_ptr<const MatrixPart> read_structure_part(const MeshSource& source,
+                                                      double unit,
+                                                      const Progress& progress,
+                                                      PartOrigin* origin) {
   if (source.size > 0.0 || source.order > 0)
     throw InputError(
         fmt::format("{}: a mesh size or order was given, but its beams and "
@@ -111,36 +152,29 @@ std::shared_ptr<const MatrixPart> read_structure_part(
                     source.file.string()));
   report(progress, "reading beams and shells", 0.0);
   const fem::Structure structure = fem::read_structure(source.file);
-  if (files != nullptr) *files = structure.files;
+  if (origin != nullptr) origin->paths = structure.files;
   if (structure.has_solids) report(progress, "reading solids", 0.0);
   const fem::StructureSolids solids =
       fem::read_structure_solids(structure, unit);
-  report(progress, "assembling", 0.0);
-  fem::AssembledStructure assembled =
-      fem::assemble_structure(structure, solids);
-  if (!(assembled.mass > 0.0))
-    throw InputError(
-        fmt::format("{}: its elements have no mass. Expected the density of "
-                    "its materials (RHO, *DENSITY).",
-                    source.file.string()));
-  return make_matrix_part(std::move(assembled.model), assembled.mass / unit,
-                          unit, progress);
+  return assemble_part(structure, solids, unit, progress);
 }
 
 }  // namespace
 
 bool is_node_model(const MeshSource& source) {
   // Who leaves cards of a deck of solids out has them alone.
-  return source.is_matrices() ||
+  return source.is_matrices() || !source.sections.empty() ||
          fem::is_structure(source.file, source.ignored.empty());
 }
 
-std::shared_ptr<const MatrixPart> read_matrix_part(
-    const MeshSource& source, const Progress& progress,
-    std::vector<std::filesystem::path>* files) {
+std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,
+                                                   const Progress& progress,
+                                                   PartOrigin* origin) {
+  if (!source.sections.empty())
+    return read_sectioned_part(source, progress, origin);
   const double unit = source.unit > 0.0 ? source.unit : 1.0;
   if (!source.is_matrices())
-    return read_structure_part(source, unit, progress, files);
+    return read_structure_part(source, unit, progress, origin);
   report(progress, "reading the matrices", 0.0);
   return make_matrix_part(
       fem::read_matrices({source.matrices.paths, source.matrices.recovery}),

@@ -15,6 +15,7 @@
 #include "limber/common/names.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/place_reader.hpp"
+#include "limber/scene/text/section_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -105,6 +106,8 @@ void read_anisotropic(XmlElement& element, flexbody::Material& material) {
   }
 }
 
+}  // namespace
+
 std::vector<flexbody::MaterialRegion> read_material(
     XmlElement& element, const std::filesystem::path& folder) {
   if (const auto file = element.text("file")) {
@@ -124,6 +127,8 @@ std::vector<flexbody::MaterialRegion> read_material(
   region.material.density = element.required_number("density", kPositive);
   return {region};
 }
+
+namespace {
 
 /// As a loss factor, of which a damping ratio is half.
 double read_loss_factor(XmlElement& element) {
@@ -229,6 +234,9 @@ void read_pieces(XmlElement& element, FlexibleLink& link) {
   if (link.mesh.is_matrices() && link.pieces != 1) {
     element.fail("'pieces' cuts a <mesh>; matrices stay whole");
   }
+  if (!link.mesh.sections.empty() && link.pieces != 1) {
+    element.fail("'pieces' cuts solids; shells and beams stay whole");
+  }
   if (link.reduced_file.empty() || link.pieces == 1) return;
   element.fail(
       "'pieces' cuts a <mesh>; a saved body is one body and stays whole");
@@ -251,6 +259,8 @@ void check_saved(const XmlElement& element, const FlexibleLink& link,
         "has a <{}>, which goes with <mesh>; a saved body has its own", tag));
   };
   if (!link.materials.empty()) refuse("material");
+  if (!link.mesh.sections.shells.empty()) refuse("shell");
+  if (!link.mesh.sections.beams.empty()) refuse("beam");
   if (!link.interfaces.empty()) refuse("interface");
   if (counts.contains("basis")) refuse("basis");
 }
@@ -266,6 +276,11 @@ void check_whole(const XmlElement& element, const FlexibleLink& link,
   if (count("matrices") && !link.materials.empty()) {
     element.fail(
         "has a <material>, which goes with <mesh>; matrices have their own");
+  }
+  if (!count("mesh") && count("matrices") && !link.mesh.sections.empty()) {
+    element.fail(
+        "has a <shell> or <beam>, which goes with <mesh>; matrices have "
+        "theirs");
   }
   if (count("mesh") && link.materials.empty() &&
       !has_deck_name(link.mesh.file)) {
@@ -296,6 +311,14 @@ FlexibleLink read_flexible(XmlElement& element,
            link.materials.push_back(region);
          }
        }},
+      {"shell",
+       [&](XmlElement& e) {
+         link.mesh.sections.shells.push_back(read_shell(e));
+       }},
+      {"beam",
+       [&](XmlElement& e) {
+         link.mesh.sections.beams.push_back(read_beam(e));
+       }},
       {"damping",
        [&](XmlElement& e) {
          link.loss_factor = read_loss_factor(e);
@@ -321,6 +344,8 @@ FlexibleLink read_flexible(XmlElement& element,
     };
   }
   element.read_children(readers);
+  if (!link.mesh.sections.empty())
+    link.mesh.sections.materials = link.materials;
   check_counts(element, counts);
   check_whole(element, link, counts);
   read_pieces(element, link);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@
 namespace limber::fem::bulk_mesh_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::write_file;
@@ -155,6 +158,38 @@ TEST(BulkMesh, ReportsUnusedGridsAsANotice) {
       "GRID,4,,0.,0.,1.\nGRID,7,,5.,0.,0.\nCTETRA,8,30,1,2,3,4\nENDDATA\n"));
   ASSERT_EQ(traced.notices.size(), 1U);
   EXPECT_THAT(traced.notices[0], HasSubstr("1 of 5 GRIDs"));
+}
+
+/// Two tetrahedra on a face; the second lacks the nodes of an edge that both
+/// have, and of one of its own.
+TEST(BulkMesh, FillsBlankMidSideNodes) {
+  const std::string text =
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+      "GRID,4,,0.,0.,1.\nGRID,5,,0.,0.,-1.\nGRID,11,,.5,0.,0.\n"
+      "GRID,12,,.5,.5,0.\nGRID,13,,0.,.5,0.\nGRID,14,,0.,0.,.5\n"
+      "GRID,15,,.5,0.,.5\nGRID,16,,0.,.5,.5\nGRID,24,,0.,0.,-.5\n"
+      "GRID,26,,.5,0.,-.5\nCTETRA,1,1,1,2,3,4,11,12\n,13,14,15,16\n"
+      "CTETRA,2,1,1,3,2,5,13,12\n,,24,,26\n";
+  const TracedMesh traced = read_traced_mesh(write_file("blank.bdf", text));
+  ASSERT_EQ(traced.mesh.blocks.size(), 1U);
+  const ElementBlock& block = traced.mesh.blocks[0];
+  EXPECT_EQ(block.element->order, 2);
+  EXPECT_EQ(traced.mesh.node_count(), 14U);
+  const auto tags_of = [&](std::size_t e) {
+    std::set<std::size_t> tags;
+    for (int i = 0; i < 10; ++i)
+      tags.insert(
+          traced.mesh
+              .tags[static_cast<std::size_t>(block.element_nodes(e)[i])]);
+    return tags;
+  };
+  EXPECT_EQ(tags_of(1),
+            std::set<std::size_t>({1, 2, 3, 5, 11, 12, 13, 24, 26, 27}));
+  // of the edge from 3 to 5
+  EXPECT_EQ(traced.mesh.tags.back(), 27U);
+  EXPECT_LT((traced.mesh.x.col(13) - Vector3(0.0, 0.5, -0.5)).norm(), 1e-15);
+  EXPECT_THAT(traced.notices, Contains(HasSubstr("2 blank mid-side nodes, "
+                                                 "the first of CTETRA 2")));
 }
 
 /// A mid-side node on one side of a face alone would open a gap.
