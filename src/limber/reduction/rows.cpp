@@ -7,6 +7,7 @@
 #include <set>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/material/anisotropy.hpp"
 #include "limber/reduction/modal/kept_rows.hpp"
 #include "limber/reduction/modal/support.hpp"
 
@@ -73,6 +74,28 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
   }
 }
 
+namespace {
+
+// 9 x points; 9 x 0 if no material has any.
+MatrixX find_material_axes(const fem::Mesh& mesh, const fem::NodalStress& nodal,
+                           const std::vector<std::size_t>& points) {
+  const bool have_axes =
+      std::any_of(nodal.constants.begin(), nodal.constants.end(),
+                  [](const auto& c) { return c.anisotropy.has_value(); });
+  if (!have_axes) return MatrixX(9, 0);
+  MatrixX axes(9, std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t point = points[i];
+    const auto material = static_cast<std::size_t>(nodal.materials[point]);
+    const Matrix3 at =
+        find_axes(nodal.constants[material], mesh.x.col(nodal.nodes[point]));
+    axes.col(static_cast<Eigen::Index>(i)) = at.reshaped();
+  }
+  return axes;
+}
+
+}  // namespace
+
 StressModes make_stress_modes(const fem::Mesh& mesh, const Recipe& recipe,
                               const std::vector<Interface>& interfaces,
                               const MatrixX& Phi,
@@ -101,6 +124,7 @@ StressModes make_stress_modes(const fem::Mesh& mesh, const Recipe& recipe,
         nodal.stress.col(static_cast<Eigen::Index>(points[i]))
             .reshaped(6, columns);
   }
+  modes.axes = find_material_axes(mesh, nodal, points);
   modes.averaging = nodal.averaging;
   modes.constants.resize(2, static_cast<Eigen::Index>(nodal.constants.size()));
   for (std::size_t i = 0; i < nodal.constants.size(); ++i) {

@@ -167,4 +167,9 @@ Matrix6 find_stiffness(const SolidMaterial& material, const Vector3& x) {
                         material.anisotropy->axes.at(x));
 }
 
+Matrix3 find_axes(const SolidMaterial& material, const Vector3& x) {
+  if (!material.anisotropy) return Matrix3::Identity();
+  return material.anisotropy->axes.at(x);
+}
+
 }  // namespace limber

@@ -60,4 +60,9 @@ struct EngineeringConstants {
 [[nodiscard]] Matrix6 find_stiffness(const SolidMaterial& material,
                                      const Vector3& x);
 
+/// Columns: axes of a material at x [m], mesh frame; the frame's own of an
+/// isotropic one.
+[[nodiscard]] Matrix3 find_axes(const SolidMaterial& material,
+                                const Vector3& x);
+
 }  // namespace limber

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "limber/common/index.hpp"
+#include "limber/common/material/anisotropy.hpp"
 #include "limber/fem/linalg/linear_fit.hpp"
 #include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/fem/structural/place_element.hpp"
@@ -387,7 +388,9 @@ class StressRecovery {
       const int node = model_.places[index(nodes[index(nodal.nodes[i])])];
       result_.points.push_back(
           {node, node, first + nodal.materials[i], SectionFace::solid, 0,
-           Matrix3::Identity(), Vector6::Zero(),
+           find_axes(nodal.constants[index(nodal.materials[i])],
+                     solids.mesh.x.col(nodal.nodes[i])),
+           Vector6::Zero(),
            std::ranges::binary_search(boundary, nodal.nodes[i])});
     }
     solid_constants_ = nodal.constants;

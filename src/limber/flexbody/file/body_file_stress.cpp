@@ -24,6 +24,11 @@ std::string name_stress_rows(std::size_t interface) {
   return fmt::format("stress/interfaces/{:04}/rows", interface);
 }
 
+// Files of isotropic solids have none.
+std::string name_axes(bool has_sections) {
+  return has_sections ? "stress/sections/axes" : "stress/axes";
+}
+
 // Rows of the body, below `count`.
 std::vector<std::size_t> read_rows(const BodyFileReader& reader,
                                    const std::string& name, std::size_t count) {
@@ -91,8 +96,6 @@ void write_sections(Hdf5File& out, const SectionModes& sections) {
             "inside of a beam's outline");
   out.write(at + "plies", to_int64(sections.plies), "1",
             "ply from the bottom, 0 of one alone; point on a beam's outline");
-  out.write(at + "axes", sections.axes, "1",
-            "axes 1, 2, 3 of each point in B, 9 x p");
   out.write(at + "strengths", sections.strengths, "Pa, Pa^-2",
             "Xt, Xc, Yt, Yc, S, F12, 6 x p; zeros: not known");
   out.write(at + "counts",
@@ -122,7 +125,6 @@ SectionModes read_sections(const BodyFileReader& reader, std::size_t points,
   sections.faces = read_choices(reader, at + "faces", points, kSectionFaces);
   sections.plies = read_choices(reader, at + "plies", points,
                                 std::numeric_limits<int>::max());
-  sections.axes = reader.matrix(at + "axes", 9, p);
   sections.strengths = reader.matrix(at + "strengths", 6, p);
   const auto counts = reader.sizes(at + "counts", 2);
   sections.left_out = counts[0];
@@ -152,6 +154,10 @@ void write_stress_modes(Hdf5File& out, const ReducedBody& body) {
   out.write("stress/Sigma_B", modes.Sigma_B, "kg^1/2 m^-2 s^-2",
             "stress per modal coordinate, then per product of paired ones, "
             "6 rows a point: xx, yy, zz, xy, yz, xz");
+  if (modes.axes.cols() > 0) {
+    out.write(name_axes(modes.sections.exist()), modes.axes, "1",
+              "axes 1, 2, 3 of each point in B, 9 x p");
+  }
   if (modes.sections.exist()) {
     write_sections(out, modes.sections);
   } else {
@@ -191,6 +197,10 @@ void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
   }
   modes.Sigma_B =
       reader.matrix("stress/Sigma_B", 6 * std::ssize(modes.rows), columns);
+  if (has_sections || reader.in().has(name_axes(false))) {
+    modes.axes =
+        reader.matrix(name_axes(has_sections), 9, std::ssize(modes.rows));
+  }
   if (has_sections) {
     modes.sections = read_sections(reader, points, body);
   } else {

@@ -36,7 +36,7 @@ constexpr auto fields_of(const QuadraticManifold*) {
 }
 
 constexpr auto fields_of(const SectionModes*) {
-  return list_fields("sections", "rows of nodes", "faces", "plies", "axes",
+  return list_fields("sections", "rows of nodes", "faces", "plies",
                      "strengths [Pa]", "points left out", "bare beams", "beams",
                      "rows of ends", "Force [kg^1/2 s^-2, kg^1/2 m s^-2]");
 }
@@ -44,7 +44,8 @@ constexpr auto fields_of(const SectionModes*) {
 constexpr auto fields_of(const StressModes*) {
   return list_fields("stress", "rows", "materials", "on surface",
                      "Sigma_B [kg^1/2 m^-2 s^-2]", "averaging [rad^2/s^2]",
-                     "constants [Pa, -]", "rows of interfaces", "sections");
+                     "constants [Pa, -]", "rows of interfaces", "axes",
+                     "sections");
 }
 
 constexpr auto fields_of(const QuadraticFrame*) {

@@ -14,9 +14,6 @@ struct SectionModes {
   std::vector<std::size_t> nodes;  ///< p: row of the node of each point
   std::vector<int> faces;          ///< p: SectionFace
   std::vector<int> plies;          ///< p: as name_section_place
-  /// 9 x p: axes of each point in B, column by column: of a shell along the
-  /// fibre, across it, normal; of a beam x, y, z; of a solid those of B.
-  MatrixX axes;
   /// 6 x p: Xt, Xc, Yt, Yc, S [Pa], F12 [Pa^-2]; zeros: not known.
   MatrixX strengths;
   std::size_t left_out = 0;    ///< number of points whose node is not kept

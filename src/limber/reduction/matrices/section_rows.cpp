@@ -58,7 +58,7 @@ StressModes make_section_stress(const MatrixBody& meshed,
   StressModes modes;
   SectionModes& sections = modes.sections;
   modes.Sigma_B.resize(6 * count, Phi.cols());
-  sections.axes.resize(9, count);
+  modes.axes.resize(9, count);
   sections.strengths.resize(6, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const KeptPoint& kept_point = points[static_cast<std::size_t>(i)];
@@ -72,7 +72,7 @@ StressModes make_section_stress(const MatrixBody& meshed,
     sections.nodes.push_back(kept_point.node);
     sections.faces.push_back(static_cast<int>(point.face));
     sections.plies.push_back(point.ply);
-    sections.axes.col(i) = point.axes.reshaped();
+    modes.axes.col(i) = point.axes.reshaped();
     sections.strengths.col(i) = point.strengths;
   }
   sections.left_out = stress.points.size() - points.size();

@@ -128,16 +128,12 @@ std::set<std::size_t> find_section_rows(const ReducedBody& body,
   return rows;
 }
 
-Matrix3 find_section_axes(const SectionModes& sections, Eigen::Index point) {
-  return sections.axes.col(point).reshaped(3, 3);
-}
-
 StressProbe make_section_force_probe(const ReducedBody& body,
                                      const std::set<std::size_t>& rows,
                                      const SectionSelection& section,
                                      const Pose& X_BL) {
   if (section.layer != SectionLayer::all || section.ply > 0 ||
-      section.in_layer_axes) {
+      section.axes != StressAxes::link) {
     throw InputError(
         "'layer', 'ply' and 'axes' are not for section forces, which are in "
         "the axes of the beam's section; leave them out");
@@ -184,7 +180,7 @@ void refuse_sections(StressQuantity quantity, const SectionSelection& section) {
   const char* what = nullptr;
   if (section.layer != SectionLayer::all) what = "'layer'";
   if (section.ply > 0) what = "'ply'";
-  if (section.in_layer_axes) what = "axes = 'layer'";
+  if (section.axes == StressAxes::layer) what = "axes = 'layer'";
   if (section.element > 0) what = "'element'";
   if (quantity == StressQuantity::section_force) what = "'section_force'";
   if (is_index(quantity)) what = "a failure index";

@@ -27,10 +27,6 @@ namespace limber::scene {
 [[nodiscard]] std::string name_section_point(
     const flexbody::SectionModes& sections, std::size_t point);
 
-/// Axes of a point in B, with which its components are.
-[[nodiscard]] Matrix3 find_section_axes(const flexbody::SectionModes& sections,
-                                        Eigen::Index point);
-
 /// A probe of the section forces at the ends of beams.
 /// @param X_BL link frame in the body's
 /// @throws InputError if there is none

@@ -137,9 +137,16 @@ std::vector<Eigen::Index> select_points(const flexbody::StressModes& modes,
   return points;
 }
 
-bool is_in_layer_axes(StressQuantity quantity,
-                      const SectionSelection& section) {
-  return section.in_layer_axes || is_index(quantity);
+bool has_own_axes(StressQuantity quantity, const SectionSelection& section) {
+  return section.axes != StressAxes::link || is_index(quantity);
+}
+
+void require_material_axes(const flexbody::StressModes& modes) {
+  if (modes.axes.cols() > 0) return;
+  throw InputError(
+      "axes = 'material' needs a material whose elasticity depends on "
+      "direction; its solids are isotropic, or its body was saved without "
+      "their axes, in which case reduce it again");
 }
 
 }  // namespace
@@ -202,7 +209,8 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
       sections.exist()
           ? select_section_points(body, rows, quantity, place.section)
           : select_points(modes, rows);
-  const bool is_in_layer = is_in_layer_axes(quantity, place.section);
+  const bool has_axes = has_own_axes(quantity, place.section);
+  if (has_axes) require_material_axes(modes);
   const auto count = static_cast<Eigen::Index>(points.size());
   const Pose X_LB = X_BL.inverse();
   Matrix3X p_L(3, count);
@@ -214,7 +222,7 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
     for (Eigen::Index k = 0; k < Sigma_L.cols(); ++k) {
       Sigma_L.block<6, 1>(6 * i, k) = flexbody::rotate_stress(
           modes.Sigma_B.block<6, 1>(6 * point, k),
-          is_in_layer ? find_section_axes(sections, point) : X_BL.R);
+          has_axes ? Matrix3(modes.axes.col(point).reshaped(3, 3)) : X_BL.R);
     }
   }
   StressProbe probe;
@@ -223,7 +231,7 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
   const std::vector<int>& order = probe.clusters.order();
   probe.p_L = p_L(Eigen::all, order);
   probe.Sigma_L.resize(Sigma_L.rows(), Sigma_L.cols());
-  probe.in_layer_axes = is_in_layer;
+  probe.has_own_axes = has_axes;
   if (is_index(quantity)) probe.strengths.resize(6, count);
   for (std::size_t i = 0; i < order.size(); ++i) {
     probe.Sigma_L.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
@@ -253,6 +261,11 @@ StressProbe make_full_stress_probe(StressQuantity quantity,
   probe.quantity = quantity;
   probe.R_BL = X_BL.R;
   refuse_sections(quantity, place.section);
+  if (place.section.axes == StressAxes::material) {
+    throw InputError(
+        "axes = 'material' is not available at level full, whose stress is in "
+        "the link's axes; use another level");
+  }
   probe.full = make_full_stress(full, {rows.begin(), rows.end()});
   LIMBER_EXPECT(probe.full != nullptr);
   const std::vector<int>& nodes = probe.full->nodes();

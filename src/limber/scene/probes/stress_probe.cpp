@@ -129,7 +129,7 @@ std::vector<ProbeColumnName> column_names(const StressProbe& probe,
     }
     return columns;
   }
-  if (probe.in_layer_axes) {
+  if (probe.has_own_axes) {
     for (const char* component : {"11", "22", "33", "12", "23", "13"}) {
       columns.push_back({name + ".s" + component, "Pa"});
     }

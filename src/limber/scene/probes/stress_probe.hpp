@@ -46,8 +46,8 @@ struct StressProbe {
                     ///< link, columns of the body's coordinates
   /// 6 x p as SectionModes::strengths, of the failure indices; else none.
   MatrixX strengths;
-  bool in_layer_axes = false;  ///< Sigma_L is, of axes 1, 2, 3 of each point
-  StressClusters clusters;     ///< of the points, which are in its order
+  bool has_own_axes = false;  ///< components along axes 1, 2, 3 of each point
+  StressClusters clusters;    ///< of the points, which are in its order
   /// Number of eigenmodes, which come first; the others are static
   /// deformations, which correct for omitted ones. -1: unknown (saved bodies).
   int eigenmodes = -1;

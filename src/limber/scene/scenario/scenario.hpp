@@ -142,12 +142,16 @@ enum class StressQuantity {
 /// Through the thickness of a shell, or of the ply that is given.
 enum class SectionLayer { all, bottom, middle, top };
 
+/// Axes of components of stress: of the link, of a shell's ply or a beam's
+/// section, or of the material, which for shells is the ply's.
+enum class StressAxes { link, layer, material };
+
 /// Where in the section of a beam or shell.
 struct SectionSelection {
   SectionLayer layer = SectionLayer::all;
-  int ply = 0;                 ///< from 1 at the bottom; 0: all
-  int element = 0;             ///< number of a beam; 0: all
-  bool in_layer_axes = false;  ///< components in the axes of the ply or beam
+  int ply = 0;      ///< from 1 at the bottom; 0: all
+  int element = 0;  ///< number of a beam; 0: all
+  StressAxes axes = StressAxes::link;
 };
 
 /// A probe of stress at a node, or of the largest at several; without an

@@ -123,9 +123,12 @@ StressProbeSpec read_stress_probe(TomlTable& table, StressQuantity quantity) {
   constexpr int kMost = std::numeric_limits<int>::max();
   section.ply = table.integer("ply", 1, kMost).value_or(0);
   section.element = table.integer("element", 1, kMost).value_or(0);
-  section.in_layer_axes = read_choice<bool>(
-      table, "axes", {{"link", false}, {"layer", true}}, false);
-  if (section.in_layer_axes && quantity != StressQuantity::stress) {
+  section.axes = read_choice<StressAxes>(table, "axes",
+                                         {{"link", StressAxes::link},
+                                          {"layer", StressAxes::layer},
+                                          {"material", StressAxes::material}},
+                                         StressAxes::link);
+  if (section.axes != StressAxes::link && quantity != StressQuantity::stress) {
     table.fail("axes",
                "is for the components of quantity 'stress'; leave it out");
   }

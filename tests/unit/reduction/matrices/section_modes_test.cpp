@@ -78,7 +78,7 @@ TEST(SectionModes, AreTheSameAfterAFile) {
   EXPECT_EQ(a.sections.nodes, b.sections.nodes);
   EXPECT_EQ(a.sections.faces, b.sections.faces);
   EXPECT_EQ(a.sections.plies, b.sections.plies);
-  EXPECT_EQ(a.sections.axes, b.sections.axes);
+  EXPECT_EQ(a.axes, b.axes);
   EXPECT_EQ(a.sections.strengths, b.sections.strengths);
   EXPECT_EQ(a.sections.elements, b.sections.elements);
   EXPECT_EQ(a.sections.ends, b.sections.ends);
