@@ -57,9 +57,9 @@ function linkRow(view, link) {
   show.onchange = () => view.showLink(link, show.checked);
   const name = make('button', { className: 'name', textContent: link.short, title: `${link.name} (${link.level}): follow with the camera` });
   name.onclick = () => view.follow(view.followed === link ? null : link);
-  const only = make('button', { textContent: '\u25ce', title: 'show it alone, or all again' });
+  const only = make('button', { className: 'sign alone', title: 'show it alone, or all again' });
   only.onclick = () => view.isolate(link);
-  const clear = make('button', { textContent: '\u25d0', title: 'transparent or solid' });
+  const clear = make('button', { className: 'sign half', title: 'transparent or solid' });
   clear.onclick = () => view.clearLink(link);
   view.onLinks(() => {
     show.checked = link.group.visible;

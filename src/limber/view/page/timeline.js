@@ -5,7 +5,7 @@ import { kSpeeds } from './player.js';
 const nameSpeed = (speed) => (speed >= 1 ? `${speed}\u00d7` : `1/${Math.round(1 / speed)}`);
 
 const kMarkup = `
-<button id="play" title="Play or pause (space)">&#9654;</button>
+<button id="play" class="sign" title="Play or pause (space)"></button>
 <span id="clock"></span>
 <div id="track">
   <div id="loop"></div><div id="ticks"></div>
@@ -78,7 +78,7 @@ export class Timeline {
 
   update() {
     const { player } = this;
-    this.find('play').textContent = player.isPlaying ? '\u23f8' : '\u25b6';
+    this.find('play').classList.toggle('pause', player.isPlaying);
     this.find('clock').textContent = `${this.tell(player.time)} of ${this.tell(player.end)}` +
       (player.start === 0 ? '' : ` from ${player.start} s on`);
     this.find('slider').value = 1e5 * this.share(player.time);
