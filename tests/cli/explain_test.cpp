@@ -155,9 +155,9 @@ TEST(Explain, RefusesWhatIsNoRun) {
   make("odd \"*$", "notes.txt", "");
   expect_refused(place, "odd \"*$", "neither summary.json");
   make("study", "study.sqlite", "");
-  expect_refused(place, "study", "of a study");
+  expect_refused(place, "study", "belongs to a study");
   make("compare", "comparison.json", "{}");
-  expect_refused(place, "compare", "of a comparison");
+  expect_refused(place, "compare", "belongs to a comparison");
   make("half", "summary.json", "{\"steps\": 3, ");
   expect_refused(place, "half", "its JSON is incomplete");
   make("list", "summary.json", "[]");

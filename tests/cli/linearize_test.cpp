@@ -131,7 +131,7 @@ TEST_F(Linearize, RefusesWhatItCannotDoInOneClearError) {
   expect_refused("-o no.mat --outputs angle,,torque", "an empty value");
   expect_refused("-o no.mat --fidelity ''", "unknown fidelity ''");
   expect_refused("-o no.mat --states 1", "do not decay");
-  expect_refused("-o no.mat --states 13", "the model has 12");
+  expect_refused("-o no.mat --states 13", "the model has only 12");
   expect_refused("-o no.mat --set controller.pd.gain=1", "gain");
   expect_refused("-o none/no.mat", "none/no.mat");
 }

@@ -331,7 +331,7 @@ def test_a_scenario_without_inputs_needs_a_period_alone(tmp_path):
     (dict(n=2.5), "expected a whole number"),
     (dict(n=2, inputs=["pdd"]), "pd"),
     (dict(n=2, inputs=["pd", "pd"]), "twice"),
-    (dict(n=2, inputs=[limber.Controller("pd", max)]), "no law in Python"),
+    (dict(n=2, inputs=[limber.Controller("pd", max)]), "does not support laws in Python"),
     (dict(n=2, inputs=[3]), "expected the name"),
     (dict(n=2, period=0.0), "period"),
     (dict(n=2, period=float("nan")), "period"),

@@ -140,7 +140,7 @@ def test_control_c_keeps_the_rows_that_are_done(sled, tmp_path):
         os.kill(os.getpid(), signal.SIGINT)
     thread = threading.Thread(target=interrupt)
     thread.start()
-    with pytest.raises(limber.Interrupted, match="the same call goes on"):
+    with pytest.raises(limber.Interrupted, match="the same call continues"):
         study.run(out=tmp_path / "python", progress=lambda *n: told.set())
     thread.join()
     rows = read(tmp_path / "python/study.sqlite")

@@ -425,7 +425,8 @@ TEST(RigidImpact, HasALinearModelOnlyWhileBodiesAreApart) {
     if (gap > 0.0) {
       EXPECT_EQ(refusal, "");
     } else {
-      EXPECT_THAT(refusal, ::testing::HasSubstr("the world and 'ball' touch"));
+      EXPECT_THAT(refusal,
+                  ::testing::HasSubstr("the world and 'ball' are in contact"));
     }
   }
 }

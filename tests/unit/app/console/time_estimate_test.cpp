@@ -43,7 +43,7 @@ TEST(TimeEstimate, TellsEachWorkApart) {
   TimeEstimate estimate;
   EXPECT_EQ(follow(estimate, "assembling", 10.0, 10.0), "");
   EXPECT_THAT(follow(estimate, "simulating", 7200.0, 5.0, 10.0),
-              HasSubstr("about 2.0 h to go"));
+              HasSubstr("about 2.0 h remaining"));
 }
 
 // The rate may change: after a restart it is measured from there.

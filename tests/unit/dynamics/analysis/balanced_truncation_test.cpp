@@ -198,7 +198,7 @@ TEST(BalancedTruncation, IsRefusedInWords) {
   EXPECT_THAT(refusal(model, 4),
               HasSubstr("6 of 6 do not decay (2 of free motion, 4 undamped, 0 "
                         "growing)"));
-  EXPECT_THAT(refusal(model, 7), HasSubstr("the model has 6"));
+  EXPECT_THAT(refusal(model, 7), HasSubstr("the model has only 6"));
   const LinearModel deaf = make_model(A, MatrixX(6, 0), draw(1, 6, 1.0));
   EXPECT_THAT(refusal(deaf, 2), HasSubstr("0 inputs and 1 outputs"));
 }

@@ -85,7 +85,8 @@ TEST(DamperImpulse, IsTheInelasticImpactOfTwoBodies) {
     EXPECT_NEAR(end.total() + end.dissipated, start.total(),
                 1e-6 * start.total());
     EXPECT_THAT(run.statistics.warnings, ElementsAre(HasSubstr("'pad'")));
-    EXPECT_THAT(run.statistics.warnings, ElementsAre(HasSubstr("6 J of 8 J")));
+    EXPECT_THAT(run.statistics.warnings,
+                ElementsAre(HasSubstr("6 J of the 8 J")));
   }
 }
 

@@ -220,7 +220,7 @@ TEST_P(SolidBox, AnElementInsideOutEndsWithItsTag) {
     FAIL() << "a mirrored body was accepted";
   } catch (const NumericalError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("element "));
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("inside out"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("is inverted"));
   }
 }
 

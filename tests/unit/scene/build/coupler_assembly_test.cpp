@@ -286,7 +286,7 @@ TEST(CouplerAssembly, GearThatStartsOutOfPlaceGivesOneWarning) {
                   .empty());
   EXPECT_THAT(warnings("[initial.joints]\nj={position=0}\nk={position=0}\n"),
               ::testing::ElementsAre("gear 'g' starts strained by -0.5: joint "
-                                     "'j' is at 0, and joint 'k' asks for "
+                                     "'j' is at 0, and joint 'k' requires "
                                      "0.5"));
   // A joint without a start is put where its gear has it.
   EXPECT_TRUE(warnings("").empty());

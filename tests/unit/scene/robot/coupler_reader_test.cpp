@@ -343,7 +343,8 @@ TEST(CouplerReader, RefusesJointsThatMakeNoSense) {
        {base("revolute", kRange + "<mimic joint='q'/>"), {"unknown joint 'q'"}},
        {base("floating", "<mimic joint='k'/>"),
         {"needs joints with one coordinate; joint 'j' is floating"}},
-       {base("revolute", kRange + "<mimic joint='j'/>"), {"circle (j -> j)"}}});
+       {base("revolute", kRange + "<mimic joint='j'/>"),
+        {"circular (j -> j)"}}});
 }
 
 TEST(CouplerReader, RefusesMimicsInACircle) {
@@ -352,7 +353,7 @@ TEST(CouplerReader, RefusesMimicsInACircle) {
       joint("x", "b", "revolute", kRange + "<mimic joint='y'/>") + "\n" +
       joint("y", "c", "revolute", kRange + "<mimic joint='x'/>"));
   EXPECT_THAT(error, AllOf(HasSubstr("robot.urdf:3: joint 'x'"),
-                           HasSubstr("circle (x -> y -> x)")));
+                           HasSubstr("circular (x -> y -> x)")));
   EXPECT_THAT(error, Not(HasSubstr("joint 'y'")));  // once
 }
 
