@@ -15,7 +15,7 @@ namespace limber::scene {
 namespace {
 
 std::optional<Vector3> read_direction(XmlElement& element, const char* name) {
-  const std::optional<Vector3> v = element.vector(name);
+  std::optional<Vector3> v = element.vector(name);
   if (v && !(v->norm() > 0.0))
     element.fail(fmt::format("{} is zero; expected a direction", name));
   return v;
