@@ -48,21 +48,11 @@ Index count_coordinates(const SystemModel& model,
   return count;
 }
 
-/// Twice the strain energy of each column of Q.
-VectorX find_strain(const SmallMotion& motion, const MatrixX& Q) {
-  VectorX strain = (motion.lambda.asDiagonal() * Q.cwiseAbs2()).colwise().sum();
-  for (const SmallMotion::ModalBlock& block : motion.coupled) {
-    const auto rows = Q.middleRows(block.first, block.K.rows());
-    strain += (rows.cwiseProduct(block.K * rows)).colwise().sum().transpose();
-  }
-  return strain;
-}
-
 double find_lowest(const SystemModel& model, const SmallMotion& motion,
                    const OwnModes& own) {
   const PrincipalBasis basis = find_principal_basis(model, motion);
   const MatrixX held = basis.Q.rightCols(basis.squares.size());
-  const VectorX strain = find_strain(motion, held);
+  const VectorX strain = motion.project_strain(held);
   const VectorX S = motion.project_squares(held);
   double lowest = own.low;
   for (Index i = 0; i < S.size(); ++i) {

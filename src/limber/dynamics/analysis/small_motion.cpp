@@ -351,20 +351,25 @@ MatrixX SmallMotion::project_stiffness(const MatrixX& Q) const {
   return S;
 }
 
-VectorX SmallMotion::project_squares(const MatrixX& Q) const {
-  const MatrixX motions = G * Q;
-  VectorX squares =
+VectorX SmallMotion::project_strain(const MatrixX& Q) const {
+  VectorX strain =
       (lambda.asDiagonal() * Q.cwiseAbs2()).colwise().sum().transpose();
+  for (const ModalBlock& block : coupled) {
+    const auto rows = Q.middleRows(block.first, block.K.rows());
+    strain += rows.cwiseProduct(block.K * rows).colwise().sum().transpose();
+  }
+  return strain;
+}
+
+VectorX SmallMotion::project_squares(const MatrixX& Q) const {
+  VectorX squares = project_strain(Q);
+  const MatrixX motions = G * Q;
   for (std::size_t i = 0; i < K.size(); ++i) {
     const auto rows = motions.middleRows<6>(6 * static_cast<Index>(i));
     squares += rows.cwiseProduct(K[i] * rows).colwise().sum().transpose();
   }
   if (!rest.isZero(0.0)) {
     squares += Q.cwiseProduct(rest * Q).colwise().sum().transpose();
-  }
-  for (const ModalBlock& block : coupled) {
-    const auto rows = Q.middleRows(block.first, block.K.rows());
-    squares += rows.cwiseProduct(block.K * rows).colwise().sum().transpose();
   }
   return squares;
 }

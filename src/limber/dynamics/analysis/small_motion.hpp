@@ -81,7 +81,9 @@ struct SmallMotion {
   /// Q' S Q, evaluated to preserve the digits of soft motion in Q beside stiff
   /// couplers.
   [[nodiscard]] MatrixX project_stiffness(const MatrixX& Q) const;
-  /// The diagonal of Q' S Q, likewise.
+  /// Twice the strain energy of the bodies, of each column of Q.
+  [[nodiscard]] VectorX project_strain(const MatrixX& Q) const;
+  /// The diagonal of project_stiffness(Q), likewise.
   [[nodiscard]] VectorX project_squares(const MatrixX& Q) const;
   /// E Q, a row for each y.
   [[nodiscard]] MatrixX project_relaxations(const MatrixX& Q) const;
