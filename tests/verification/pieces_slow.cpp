@@ -227,7 +227,7 @@ TEST_F(Cuts, OfSweptLayersCostLittleWhateverTheirNumber) {
                  1500.0,
                  1e11,
                  1e8};
-  for (const int pieces : {2, 3, 4, 5}) expect_whole(bar, pieces, 0.01);
+  for (const int pieces : {3, 5}) expect_whole(bar, pieces, 0.01);
 }
 
 TEST_F(Cuts, OfTetrahedraCostLittleAlthoughTheyAreRagged) {

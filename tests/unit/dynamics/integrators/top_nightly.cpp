@@ -10,7 +10,7 @@
 #include "support/top_drift.hpp"
 
 /// Free tops over ten million steps.
-namespace limber::dynamics::top_slow {
+namespace limber::dynamics::top_nightly {
 namespace {
 
 using testing::Drift;
@@ -62,4 +62,4 @@ TEST(TenMillionSteps, OfGeneralizedAlphaStayWithinTheSquareOfAStep) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics::top_slow
+}  // namespace limber::dynamics::top_nightly

@@ -8,7 +8,7 @@
 #include "support/meshed_bodies.hpp"
 #include "support/random_scene_end.hpp"
 
-namespace limber::testing::random_nonlinear_slow {
+namespace limber::testing::random_nonlinear_nightly {
 namespace {
 
 RandomSceneOptions make_options(dynamics::Fidelity level) {
@@ -50,4 +50,4 @@ TEST(RandomNonlinearScene, HasNoCriticalSpeedOfLinearElasticity) {
 }
 
 }  // namespace
-}  // namespace limber::testing::random_nonlinear_slow
+}  // namespace limber::testing::random_nonlinear_nightly

@@ -3,7 +3,7 @@
 
 #include "support/free_chain.hpp"
 
-namespace limber::dynamics::energy_conserving_slow {
+namespace limber::dynamics::energy_conserving_nightly {
 namespace {
 
 // A random walk of round-off in the wrenches of stiff couplers: at five steps
@@ -18,4 +18,4 @@ TEST(AMillionSteps, OfTheEnergyConservingSchemeKeepAFreeChainsEnergyTo5e10) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics::energy_conserving_slow
+}  // namespace limber::dynamics::energy_conserving_nightly

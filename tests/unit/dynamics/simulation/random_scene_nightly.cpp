@@ -6,7 +6,7 @@
 
 #include "support/random_scene_end.hpp"
 
-namespace limber::testing::random_scene_slow {
+namespace limber::testing::random_scene_nightly {
 namespace {
 
 class LongRandomScene : public ::testing::TestWithParam<unsigned> {};
@@ -24,4 +24,4 @@ INSTANTIATE_TEST_SUITE_P(Slow, LongRandomScene,
                                            394U));
 
 }  // namespace
-}  // namespace limber::testing::random_scene_slow
+}  // namespace limber::testing::random_scene_nightly

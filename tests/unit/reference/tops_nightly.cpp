@@ -9,7 +9,7 @@
 #include "limber/reference/simbody_reference.hpp"
 #include "support/free_top.hpp"
 
-namespace limber::reference::tops_slow {
+namespace limber::reference::tops_nightly {
 namespace {
 
 using dynamics::Breakpoint;
@@ -200,4 +200,4 @@ TEST(Tops, HeavyTopOnAStiffeningPointConvergesToSimbodysBall) {
 }
 
 }  // namespace
-}  // namespace limber::reference::tops_slow
+}  // namespace limber::reference::tops_nightly

@@ -17,7 +17,7 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test::interrupted_slow {
+namespace limber::test::interrupted_nightly {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ TEST(InterruptedRun, OfAnExplicitSchemeWithContactGivesTheAnswerOfAWholeOne) {
 }
 
 }  // namespace
-}  // namespace limber::test::interrupted_slow
+}  // namespace limber::test::interrupted_nightly
