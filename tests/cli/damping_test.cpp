@@ -338,6 +338,53 @@ TEST(Damping, ResumedRunIsTheUninterruptedOne) {
             read_text(place.folder() / "whole/probes.csv"));
 }
 
+// Runs of a study share the frequencies in which the loss factor holds, where
+// these are the same.
+TEST(Damping, InAStudyIsThatOfSingleRunsToTheBit) {
+  const Workspace place;
+  write_arm(place, {.tip_mass = 1.0, .duration = 0.05});
+  place.write("study.toml", R"(scenario = 's.toml'
+[design]
+kind = 'latin-hypercube'
+samples = 12
+seed = 3
+[[factor]]
+name = 'force'
+path = 'load.l.force.2'
+uniform = [0.1, 1.0]
+[[factor]]
+name = 'youngs_modulus'
+path = 'robot.flexible.bar.material.youngs_modulus'
+choice = [3e9, 4e9]
+[[factor]]
+name = 'hold'
+path = 'robot.coupler.tip.rotational_stiffness'
+choice = [10.0, 1e8]
+[[factor]]
+name = 'ratio'
+path = 'robot.flexible.bar.damping.ratio'
+choice = [0.02, 0.1]
+[[response]]
+name = 'end'
+probe = 't.uz'
+measure = 'final'
+)");
+  ASSERT_EQ(place.limber("study study.toml --out a --csv --jobs 1").status, 0);
+  std::istringstream table(read_text(place.folder() / "a/study.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_THAT(line, HasSubstr("force,youngs_modulus,hold,ratio,end"));
+  for (int i = 0; i < 12; ++i) {
+    std::getline(table, line);
+    for (int comma = 0; comma < 5; ++comma) line.erase(0, line.find(',') + 1);
+    const CommandResult r = place.limber(
+        fmt::format("run --from a/study.sqlite#{} --out r --json", i));
+    ASSERT_EQ(r.status, 0) << r.errors;
+    EXPECT_EQ(std::stod(line), json::parse(r.out)["probes"]["t.uz"]["final"])
+        << i;
+  }
+}
+
 TEST(Damping, IsPartOfALinearModel) {
   const Workspace place;
   write_arm(place, {.holds = "clamp"});

@@ -147,7 +147,7 @@ std::string find_doubt(const std::vector<dynamics::ContactRecord>& contacts) {
 }  // namespace
 
 scene::BuiltScene build_at_level(
-    const scene::Scene& scene, Fidelity level, const scene::KnownBodies& known,
+    const scene::Scene& scene, Fidelity level, const scene::KnownParts& known,
     const Reductions& reductions,
     const std::map<std::string, Fidelity>& others) {
   scene::Scene same = scene;

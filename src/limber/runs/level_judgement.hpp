@@ -78,7 +78,7 @@ class RunLevelObserver {
 /// in `known`; links in `others` at their own levels.
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
-    const scene::KnownBodies& known, const Reductions& reductions,
+    const scene::KnownParts& known, const Reductions& reductions,
     const std::map<std::string, dynamics::Fidelity>& others = {});
 
 /// What `limber advise` finds.

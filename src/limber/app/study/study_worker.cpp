@@ -32,7 +32,7 @@ std::vector<std::string> list_warnings(const runs::Run& run) {
 }  // namespace
 
 StudyWorker::StudyWorker(const Study& study, std::filesystem::path cache,
-                         scene::KnownBodies known, Progress watch)
+                         scene::KnownParts known, Progress watch)
     : study_(study),
       cache_(std::move(cache)),
       watch_(std::move(watch)),

@@ -24,7 +24,7 @@ class StudyWorker {
   /// @param known bodies that need no reduction
   /// @param watch called during runs; may throw to end one
   StudyWorker(const Study& study, std::filesystem::path cache,
-              scene::KnownBodies known, Progress watch);
+              scene::KnownParts known, Progress watch);
 
   /// The row of one run without its formulas (evaluate_formulas). The row of a
   /// run that fails has its message.
@@ -44,7 +44,7 @@ class StudyWorker {
   bool judges_;
 
   // To be used only while libraries are locked:
-  scene::KnownBodies known_;
+  scene::KnownParts known_;
   scene::KnownRobots robots_;
   scene::Reducer reducer_;
 };

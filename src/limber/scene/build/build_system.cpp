@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/records/manifest.hpp"
 #include "limber/dynamics/analysis/elastic_band.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/model_fields.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
@@ -81,10 +86,27 @@ bool has_loss_factor(const Scene& scene) {
                      });
 }
 
+/// What bands depend on; reduced bodies are the same if they are one object.
+KnownBands describe_bands(dynamics::SystemModel model,
+                          const dynamics::SystemState& state) {
+  KnownBands known;
+  for (dynamics::BodyModel& body : model.bodies) {
+    known.bodies.push_back(std::exchange(body.reduced, nullptr));
+  }
+  Manifest manifest;
+  describe(manifest, "system", model);
+  describe(manifest, "state", dynamics::stop(state));
+  known.system = manifest.text();
+  return known;
+}
+
 /// The bands of frequencies at the scene's start which its links' loss factors
 /// hold in, one per body; the same at all levels. Without loss factors none.
+/// @param known the newest first; that of this scene is put there
 ElasticBands find_bands(const Scene& scene, BodyPlans plans,
-                        const std::vector<LinkMotion>& motions) {
+                        const std::vector<LinkMotion>& motions,
+                        std::vector<KnownBands>& known) {
+  constexpr std::size_t kMostKnown = 8;
   if (!has_loss_factor(scene)) return {};
   for (BodyPlan& plan : plans.bodies) plan.full.reset();
   Assembly assembly(scene, plans, motions, std::nullopt);
@@ -92,23 +114,35 @@ ElasticBands find_bands(const Scene& scene, BodyPlans plans,
   assembly.add_inputs();
   assembly.add_couplers();
   const dynamics::SystemModel model = assembly.build();
-  return dynamics::find_elastic_bands(model,
-                                      assembly.make_initial_state(model));
+  const dynamics::SystemState state = assembly.make_initial_state(model);
+  KnownBands now = describe_bands(model, state);
+  const auto same =
+      std::find_if(known.begin(), known.end(), [&](const KnownBands& one) {
+        return one.bodies == now.bodies && one.system == now.system;
+      });
+  if (same != known.end()) return same->bands;
+  now.bands = dynamics::find_elastic_bands(model, state);
+  known.insert(known.begin(), now);
+  if (known.size() > kMostKnown) known.pop_back();
+  return now.bands;
 }
 
 }  // namespace
 
 BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                         const std::filesystem::path& cache,
-                        const FullMaker& make_full, const KnownBodies& known) {
+                        const FullMaker& make_full, const KnownParts& known) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::vector<LinkMotion> motions =
       find_link_motions(scene.robot, scene.scenario);
-  const Reductions reductions = find_reductions(scene, reducer, cache, known);
+  const Reductions reductions =
+      find_reductions(scene, reducer, cache, known.bodies);
   BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
   add_full_bodies(scene, make_full, plans);
-  Assembly assembly(scene, plans, motions, find_bands(scene, plans, motions));
+  std::vector<KnownBands> bands = known.bands;
+  Assembly assembly(scene, plans, motions,
+                    find_bands(scene, plans, motions, bands));
   assembly.add_bodies();
   assembly.add_inputs();
   assembly.add_couplers();
@@ -143,7 +177,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   built.notes.insert(built.notes.end(), assembly.notes().begin(),
                      assembly.notes().end());
   built.piece_checks = reductions.piece_checks;
-  built.known = reductions.known;
+  built.known = {reductions.known, std::move(bands)};
   built.bodies_reduced = reductions.reduced;
   built.bodies_cached = reductions.cached;
   built.seconds_offline =
