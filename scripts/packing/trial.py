@@ -94,6 +94,17 @@ def time_example(root, command, scenario):
     return seconds
 
 
+def try_page(root, command, share):
+    """A page that simulates, if its module was made; `share` is a path as the ordinary user sees it."""
+    if not (root.user / share / "playground.wasm").exists():
+        print("  no page that simulates: the package was made without emscripten")
+        return
+    root.run(f"{command} view --play '{share}/{EXAMPLE}' -o play.html", is_user=True)
+    size = (root.user / "play.html").stat().st_size / 1e6
+    expect(size > 1.0, f"the page that simulates has only {size:.1f} MB")
+    print(f"  a page that simulates: {size:.1f} MB")
+
+
 def find_growth(text):
     size = re.search(r"After this operation, ([\d.,]+) ([kM])B of additional", text)
     return float(size.group(1).replace(",", "")) * {"k": 1e-3, "M": 1.0}[size.group(2)]
@@ -114,6 +125,7 @@ def try_deb(dist, store):
         print(f"  limber installs {megabytes:.0f} MB, itself included")
         seconds = time_example(root, "limber", f"/{SHARE}/{EXAMPLE}")
         print(f"  first example: {seconds:.1f} s")
+        try_page(root, "limber", f"../../{SHARE}")
         root.run(f"cp -r /{SHARE}/examples /{SHARE}/models /{SHARE}/meshes .", is_user=True)
         root.run("sed -i 's/0.8/0.81/' meshes/capture_upper_link.geo", is_user=True)
         asks = root.run("limber check examples/struck_finger.toml || true", is_user=True)
@@ -146,6 +158,7 @@ def try_tarball(dist, store):
         folder = f"'any where'/limber-{build.VERSION}"
         seconds = time_example(root, f"{folder}/bin/limber", f"{folder}/share/limber/{EXAMPLE}")
         print(f"  first example, by an ordinary user without any package: {seconds:.1f} s")
+        try_page(root, f"{folder}/bin/limber", f"any where/limber-{build.VERSION}/share/limber")
         root.run(f"sed -i 's/0.8/0.81/' {folder}/share/limber/meshes/capture_upper_link.geo"
                  f" && {folder}/bin/limber check {folder}/share/limber/{EXAMPLE}", is_user=True)
         root.run(f"{folder}/bin/limber verify {folder}/share/limber/examples/report_beam.toml"

@@ -76,6 +76,15 @@ def find_missing_pages(source, site):
             if not (site / page.relative_to(source)).with_suffix(".html").is_file()]
 
 
+def find_odd_headings(site):
+    """Of tables of keys: brackets that are no [[TABLE]]."""
+    text = (site / "docs/reference/keys/index.html").read_text()
+    headings = [re.sub(r"<[^>]+>", "", part) for part in re.findall(r"<h3[^>]*>(.*?)</h3>", text)]
+    odd = [heading for heading in headings if re.search(r"[\[\]]", re.sub(r"\[\[\w+\]\]", "", heading))]
+    problems = [f"keys: the heading '{heading}'" for heading in odd]
+    return problems if len(headings) > 50 else [*problems, f"keys: only {len(headings)} headings"]
+
+
 def find_plain_formulas(source, site):
     """Pages whose formulas are not all rendered."""
     problems, count = [], 0
@@ -151,7 +160,7 @@ def main():
         sys.exit("scripts/site failed")
     pages = read_pages(work)
     problems = [*find_lost(pages, work), *find_foreign_styles(work), *find_missing_pages(source, work),
-                *find_plain_formulas(source, work),
+                *find_plain_formulas(source, work), *find_odd_headings(work),
                 *check_search(work), *check_in_browser(work)]
     if len(pages) < 100 or sum(len(page.links) for page in pages.values()) < 5000:
         problems.append("pages or links were not found")
