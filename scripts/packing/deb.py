@@ -9,7 +9,8 @@ import textwrap
 
 from . import build, sbom
 
-MAINTAINER = "The Limber authors"
+# With the address of whoever distributes them, as Debian's tools take it.
+MAINTAINER = f"The Limber authors <{os.environ.get('DEBEMAIL', '')}>".replace(" <>", "")
 COMMAND_LICENCE = """The sources are BSD-3-Clause. limber loads CHOLMOD, whose supernodal part is
 GPL-2.0-or-later, so that the GPL applies to whoever distributes this binary package."""
 PACKAGES = {
@@ -118,7 +119,7 @@ def describe_release():
     day = datetime.datetime.fromisoformat(build.RELEASED)
     return (f"limber ({build.VERSION}) unstable; urgency=medium\n\n"
             "  * What is new in this version: CHANGELOG.md.gz, beside this file.\n\n"
-            f" -- {MAINTAINER} <>  {day:%a, %d %b %Y} 00:00:00 +0000\n")
+            f" -- {MAINTAINER}  {day:%a, %d %b %Y} 00:00:00 +0000\n")
 
 
 def indent(text, is_whole=False):
