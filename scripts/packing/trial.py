@@ -6,10 +6,11 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
-from . import build
+from . import build, deb, wheel
 
 MOST_SECONDS = 10.0   # of the first example, on a machine that has nothing else to do
 MOST_MEGABYTES = 300  # of packages beyond a minimal Debian
@@ -113,7 +114,7 @@ def find_growth(text):
 def try_deb(dist, store):
     def file(name):
         return dist / f"{name}_{build.VERSION}_amd64.deb"
-    names = ["limber", "limber-mesher", "limber-verifier", "liblimber-dev", "python3-limber"]
+    names = list(deb.PACKAGES)
     with make_root(store) as root:
         root.run("apt-get update")
         before = root.list_files()
@@ -190,11 +191,19 @@ def try_wheel(dist, store):
         expect(not left, f"left after uninstallation: {left}")
 
 
+FILES = {
+    "deb": [f"{name}_{build.VERSION}_amd64.deb" for name in deb.PACKAGES],
+    "tarball": [f"limber-{build.VERSION}-linux-x86_64.tar.gz"],
+    "wheel": [f"{name.replace('-', '_')}-{build.VERSION}-{wheel.TAG}.whl" for name in wheel.WHEELS]}
 TRIALS = {"deb": try_deb, "tarball": try_tarball, "wheel": try_wheel}
 
 
 def run(dist, kinds):
     """@returns exit status"""
+    missing = [str(dist / file) for kind in kinds for file in FILES[kind] if not (dist / file).is_file()]
+    if missing:
+        print(f"package: nothing to try: {', '.join(missing)} not found; without --try they are made", file=sys.stderr)
+        return 2
     if os.geteuid() != 0 or shutil.which("mmdebstrap") is None:
         print("package: skipped: a clean root needs root and mmdebstrap")
         return 0
