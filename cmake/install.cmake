@@ -33,8 +33,7 @@ foreach(layer IN LISTS layers)
   list(APPEND targets limber_${layer})
 endforeach()
 
-# The public headers (docs/reference/compatibility.md). What they include is installed
-# too, as compilers need it, and is internal.
+# The public headers: those of docs/reference/compatibility.md and what limber.hpp includes.
 set(public_headers
   limber.hpp
   common/errors.hpp
@@ -45,7 +44,14 @@ set(public_headers
   dynamics/analysis/natural_frequencies.hpp
   dynamics/analysis/steady_spin.hpp
   dynamics/equations/energy.hpp
+  dynamics/equations/joint_state.hpp
+  dynamics/equations/node_motion.hpp
+  dynamics/simulation/simulation.hpp
+  dynamics/simulation/simulator.hpp
+  dynamics/system/system_builder.hpp
+  flexbody/file/body_file.hpp
   flexbody/file/cache.hpp
+  joints/joint_kind.hpp
   joints/pairs/point_springs.hpp
   results/linear_model_file.hpp
   results/motion_error.hpp
@@ -61,24 +67,12 @@ endif()
 if(LIMBER_REFERENCE)
   list(APPEND public_headers reference/verification.hpp)
 endif()
-set(installed)
-while(public_headers)
-  list(POP_FRONT public_headers header)
-  if(header IN_LIST installed OR "${header}" STREQUAL "version.hpp")
-    continue()
-  endif()
-  list(APPEND installed ${header})
-  file(STRINGS ${PROJECT_SOURCE_DIR}/src/limber/${header} includes
-    REGEX "^#include \"limber/")
-  list(TRANSFORM includes REPLACE "^#include \"limber/([^\"]+)\".*" "\\1")
-  list(APPEND public_headers ${includes})
-endwhile()
-foreach(header IN LISTS installed)
-  get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${PROJECT_SOURCE_DIR}/src/limber/${header}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber/${folder} COMPONENT dev)
-endforeach()
-
+install(CODE "
+  set(source [[${PROJECT_SOURCE_DIR}/src/limber]])
+  set(public [[${public_headers}]])
+  set(folder [[${CMAKE_INSTALL_INCLUDEDIR}]])
+  set(work [[${PROJECT_BINARY_DIR}/headers]])
+  include([[${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake]])" COMPONENT dev)
 install(FILES ${PROJECT_BINARY_DIR}/include/limber/version.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber COMPONENT dev)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Debian packages, by dpkg-shlibdeps and dpkg-deb."""
+import datetime
 import gzip
 import hashlib
 import os
@@ -8,6 +9,8 @@ import textwrap
 
 from . import build, sbom
 
+# With the address of whoever distributes them, as Debian's tools take it.
+MAINTAINER = f"The Limber authors <{os.environ.get('DEBEMAIL', '')}>".replace(" <>", "")
 COMMAND_LICENCE = """The sources are BSD-3-Clause. limber loads CHOLMOD, whose supernodal part is
 GPL-2.0-or-later, so that the GPL applies to whoever distributes this binary package."""
 PACKAGES = {
@@ -98,7 +101,8 @@ def write_documents(root, name, package, builds):
     headers = sbom.list_headers(builds, package["headers"]) if has_page else package["headers"]
     parts = sbom.list_parts(sbom.list_libraries(*programs).values(), headers)
     sbom.write_sbom(doc / "sbom.cdx.json", name, package["licence"], parts, has_page)
-    write_gzip(doc / "changelog.gz", (build.SOURCE / "CHANGELOG.md").read_bytes())
+    write_gzip(doc / "changelog.gz", describe_release().encode())
+    write_gzip(doc / "CHANGELOG.md.gz", (build.SOURCE / "CHANGELOG.md").read_bytes())
     text = ["Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/",
             "Upstream-Name: limber", f"Comment: {indent(package['why'])}", "",
             "Files: *", "Copyright: 2026, The Limber authors", "License: BSD-3-Clause",
@@ -108,6 +112,14 @@ def write_documents(root, name, package, builds):
         text += [f"== {part}", licence]
     (doc / "copyright").write_text("\n".join(text))
     (doc / "copyright").chmod(0o644)
+
+
+def describe_release():
+    """In Debian's form, which apt shows."""
+    day = datetime.datetime.fromisoformat(build.RELEASED)
+    return (f"limber ({build.VERSION}) unstable; urgency=medium\n\n"
+            "  * What is new in this version: CHANGELOG.md.gz, beside this file.\n\n"
+            f" -- {MAINTAINER}  {day:%a, %d %b %Y} 00:00:00 +0000\n")
 
 
 def indent(text, is_whole=False):
@@ -134,7 +146,7 @@ def write_control(root, name, package, depends):
     size = sum(file.stat().st_size for file in root.rglob("*") if file.is_file())
     fields = {
         "Package": name, "Version": build.VERSION, "Architecture": "amd64",
-        "Maintainer": "The Limber authors", "Section": package["section"],
+        "Maintainer": MAINTAINER, "Section": package["section"],
         "Priority": "optional", "Installed-Size": str((size + 1023) // 1024),
         "Depends": ", ".join(depends + [package["depends"].replace("VERSION", build.VERSION)]),
         "Suggests": package.get("suggests"),

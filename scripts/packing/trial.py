@@ -6,10 +6,11 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
-from . import build
+from . import build, deb, wheel
 
 MOST_SECONDS = 10.0   # of the first example, on a machine that has nothing else to do
 MOST_MEGABYTES = 300  # of packages beyond a minimal Debian
@@ -94,6 +95,17 @@ def time_example(root, command, scenario):
     return seconds
 
 
+def try_page(root, command, share):
+    """A page that simulates, if its module was made; `share` is a path as the ordinary user sees it."""
+    if not (root.user / share / "playground.wasm").exists():
+        print("  no page that simulates: the package was made without emscripten")
+        return
+    root.run(f"{command} view --play '{share}/{EXAMPLE}' -o play.html", is_user=True)
+    size = (root.user / "play.html").stat().st_size / 1e6
+    expect(size > 1.0, f"the page that simulates has only {size:.1f} MB")
+    print(f"  a page that simulates: {size:.1f} MB")
+
+
 def find_growth(text):
     size = re.search(r"After this operation, ([\d.,]+) ([kM])B of additional", text)
     return float(size.group(1).replace(",", "")) * {"k": 1e-3, "M": 1.0}[size.group(2)]
@@ -102,7 +114,7 @@ def find_growth(text):
 def try_deb(dist, store):
     def file(name):
         return dist / f"{name}_{build.VERSION}_amd64.deb"
-    names = ["limber", "limber-mesher", "limber-verifier", "liblimber-dev", "python3-limber"]
+    names = list(deb.PACKAGES)
     with make_root(store) as root:
         root.run("apt-get update")
         before = root.list_files()
@@ -114,6 +126,7 @@ def try_deb(dist, store):
         print(f"  limber installs {megabytes:.0f} MB, itself included")
         seconds = time_example(root, "limber", f"/{SHARE}/{EXAMPLE}")
         print(f"  first example: {seconds:.1f} s")
+        try_page(root, "limber", f"../../{SHARE}")
         root.run(f"cp -r /{SHARE}/examples /{SHARE}/models /{SHARE}/meshes .", is_user=True)
         root.run("sed -i 's/0.8/0.81/' meshes/capture_upper_link.geo", is_user=True)
         asks = root.run("limber check examples/struck_finger.toml || true", is_user=True)
@@ -146,6 +159,7 @@ def try_tarball(dist, store):
         folder = f"'any where'/limber-{build.VERSION}"
         seconds = time_example(root, f"{folder}/bin/limber", f"{folder}/share/limber/{EXAMPLE}")
         print(f"  first example, by an ordinary user without any package: {seconds:.1f} s")
+        try_page(root, f"{folder}/bin/limber", f"any where/limber-{build.VERSION}/share/limber")
         root.run(f"sed -i 's/0.8/0.81/' {folder}/share/limber/meshes/capture_upper_link.geo"
                  f" && {folder}/bin/limber check {folder}/share/limber/{EXAMPLE}", is_user=True)
         root.run(f"{folder}/bin/limber verify {folder}/share/limber/examples/report_beam.toml"
@@ -177,11 +191,19 @@ def try_wheel(dist, store):
         expect(not left, f"left after uninstallation: {left}")
 
 
+FILES = {
+    "deb": [f"{name}_{build.VERSION}_amd64.deb" for name in deb.PACKAGES],
+    "tarball": [f"limber-{build.VERSION}-linux-x86_64.tar.gz"],
+    "wheel": [f"{name.replace('-', '_')}-{build.VERSION}-{wheel.TAG}.whl" for name in wheel.WHEELS]}
 TRIALS = {"deb": try_deb, "tarball": try_tarball, "wheel": try_wheel}
 
 
 def run(dist, kinds):
     """@returns exit status"""
+    missing = [str(dist / file) for kind in kinds for file in FILES[kind] if not (dist / file).is_file()]
+    if missing:
+        print(f"package: nothing to try: {', '.join(missing)} not found; without --try they are made", file=sys.stderr)
+        return 2
     if os.geteuid() != 0 or shutil.which("mmdebstrap") is None:
         print("package: skipped: a clean root needs root and mmdebstrap")
         return 0

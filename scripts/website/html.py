@@ -10,7 +10,7 @@ import sys
 import mkdocs.commands.build
 import mkdocs.config
 
-from website import stage
+from website import formulas, stage
 
 THEME = pathlib.Path(__file__).parent / "theme"
 SHOWN = re.compile(r"\.\w+\.html(#|$)")  # pages of files that are no pages
@@ -64,6 +64,7 @@ def build(source, pages, made, out):
     for file in sorted(THEME.glob("*.*")):
         if file.suffix in (".css", ".js"):
             shutil.copyfile(file, pages / file.name)
+    formulas.copy_style(pages)
     config = pages.parent / "mkdocs.yml"
     config.write_text("site_name: Limber\n")
     settings = {
@@ -71,7 +72,7 @@ def build(source, pages, made, out):
         "Simulation of flexible capture arms with contact", "nav": make_navigation(source, pages, made),
         "theme": {"name": "material", "custom_dir": str(THEME), "font": False, "palette": PALETTE,
                   "features": FEATURES, "icon": {"logo": "material/robot-industrial"}},
-        "use_directory_urls": False, "extra_css": ["limber.css"], "plugins": ["search"],
+        "use_directory_urls": False, "extra_css": [formulas.STYLE, "limber.css"], "plugins": ["search"],
         "markdown_extensions": ["attr_list", "md_in_html", {"toc": {"slugify": make_anchor, "toc_depth": 3}},
                                 "pymdownx.superfences", {"pymdownx.highlight": {"guess_lang": False}}],
         "extra": {"generator": False, "homepage": "index.html"}}

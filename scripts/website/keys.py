@@ -55,7 +55,8 @@ def describe_table(title, schema):
 def find_tables(schema, name):
     for option in options(schema):
         if option.get("type") == "array":
-            yield from find_tables(option["items"], f"[[{name}]]")
+            within, separator, own = name.rpartition(" / ")
+            yield from find_tables(option["items"], f"{within}{separator}[[{own}]]")
         if option.get("type") != "object":
             continue
         if isinstance(option["additionalProperties"], dict):

@@ -5,6 +5,8 @@ import pathlib
 import re
 import shutil
 
+from website import formulas
+
 # Fenced and other code, in which nothing is a link; links; citations.
 PART = re.compile(r"(?P<code>^```.*?^```$|`[^`\n]+`)"
                   r"|(?P<link>\]\((?P<target>[^()\s]+)\))"
@@ -72,7 +74,7 @@ class Tree:
             if cite := match["cite"]:
                 return self._cite(page, cite)
             return f"]({self._follow(page, match['target'], ahead)})"
-        return PART.sub(replace, text)
+        return formulas.render(page, PART.sub(replace, text))
 
     def _relate(self, page, target):
         return os.path.relpath(target, page.parent)
@@ -107,7 +109,7 @@ class Tree:
 def title_block(code):
     """A fence without the words that are for tests, with the name of its file as a title."""
     fence = re.match(r"```(\w*)([^\n]*)\n", code)
-    if not fence:
+    if not fence or fence[1] == "math":
         return code
     name = re.search(r"\bfile=(\S+)", fence[2])
     title = f' title="{name[1]}"' if name else ""

@@ -85,5 +85,19 @@ TEST_F(Play, NamesTheScriptThatMakesTheModule) {
   EXPECT_FALSE(std::filesystem::exists(place_.folder() / "beam.html"));
 }
 
+// Its results might differ from those of the command that makes the page.
+TEST_F(Play, RefusesAModuleOfOtherSources) {
+  const CommandResult result = run_shell(
+      place_, "cp '" LIMBER_COMMAND "' own && cp \"$(dirname '" LIMBER_COMMAND
+              "')\"/*.html . && rm -f beam.html && "
+              "echo '// 0123' > playground.js && echo > playground.wasm && "
+              "./own view --play beam.toml");
+  EXPECT_EQ(result.status, kRefused) << result.errors;
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("playground.js' was compiled from "
+                                             "other sources"),
+                                   HasSubstr("scripts/playground makes it")));
+  EXPECT_FALSE(std::filesystem::exists(place_.folder() / "beam.html"));
+}
+
 }  // namespace
 }  // namespace limber::test::play_test

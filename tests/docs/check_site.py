@@ -76,6 +76,27 @@ def find_missing_pages(source, site):
             if not (site / page.relative_to(source)).with_suffix(".html").is_file()]
 
 
+def find_odd_headings(site):
+    """Of tables of keys: brackets that are no [[TABLE]]."""
+    text = (site / "docs/reference/keys/index.html").read_text()
+    headings = [re.sub(r"<[^>]+>", "", part) for part in re.findall(r"<h3[^>]*>(.*?)</h3>", text)]
+    odd = [heading for heading in headings if re.search(r"[\[\]]", re.sub(r"\[\[\w+\]\]", "", heading))]
+    problems = [f"keys: the heading '{heading}'" for heading in odd]
+    return problems if len(headings) > 50 else [*problems, f"keys: only {len(headings)} headings"]
+
+
+def find_plain_formulas(source, site):
+    """Pages whose formulas are not all rendered."""
+    problems, count = [], 0
+    for page in sorted((source / "docs").rglob("*.md")):
+        wanted = len(re.findall(r"^```math$", page.read_text(), re.MULTILINE))
+        text = (site / page.relative_to(source)).with_suffix(".html").read_text()
+        count += wanted
+        if text.count("<math ") != wanted or "\\begin{" in text:
+            problems.append(f"{page.relative_to(source)}: {text.count('<math ')} of {wanted} formulas are rendered")
+    return problems if count > 50 else [*problems, f"only {count} formulas were found"]
+
+
 def check_search(site):
     """Words of pages of every kind, and of the generated ones."""
     index = json.loads((site / "search/search_index.json").read_text())
@@ -139,6 +160,7 @@ def main():
         sys.exit("scripts/site failed")
     pages = read_pages(work)
     problems = [*find_lost(pages, work), *find_foreign_styles(work), *find_missing_pages(source, work),
+                *find_plain_formulas(source, work), *find_odd_headings(work),
                 *check_search(work), *check_in_browser(work)]
     if len(pages) < 100 or sum(len(page.links) for page in pages.values()) < 5000:
         problems.append("pages or links were not found")

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     add_export(app, action);
     add_wobble(app, action);
     add_cache(app, action);
+    add_schema(app, action);
     add_ship(app, action);
   });
 }

@@ -15,6 +15,7 @@
 #include "limber/view/compress.hpp"
 #include "limber/view/page.hpp"
 #include "limber/view/page_arrays.hpp"
+#include "limber/view/playground_digest.hpp"
 
 namespace limber::view {
 namespace {
@@ -42,6 +43,20 @@ std::string read_part(const std::filesystem::path& part) {
         fmt::format("'{}' cannot be read; make it again", part.string()));
   }
   return bytes;
+}
+
+/// The module's script, whose first line names its sources.
+std::string read_glue() {
+  const std::filesystem::path part = find_part("playground.js");
+  std::string glue = read_part(part);
+  if (!glue.starts_with(fmt::format("// {}\n", playground_digest()))) {
+    throw InputError(fmt::format(
+        "'{}' was compiled from other sources than this command, and might "
+        "give other results; scripts/playground makes it again, or install "
+        "Limber again",
+        part.string()));
+  }
+  return glue;
 }
 
 nlohmann::json describe_control(const PlayControl& control) {
@@ -74,7 +89,7 @@ nlohmann::json describe_playground(const Playground& playground) {
           {"bodies", playground.bodies},
           {"controls", std::move(controls)},
           {"view", read_part(find_template())},
-          {"glue", read_part(find_part("playground.js"))},
+          {"glue", read_glue()},
           {"module", encode_base64(read_part(find_part("playground.wasm")))}};
 }
 
@@ -85,6 +100,7 @@ void find_playground() {
   for (const char* name : {"play.html", "playground.js", "playground.wasm"}) {
     find_part(name);
   }
+  (void)read_glue();
 }
 
 void write_play_page(const std::filesystem::path& file,

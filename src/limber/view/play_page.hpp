@@ -33,7 +33,8 @@ struct Playground {
   std::vector<PlayControl> controls;
 };
 
-/// Checks that the module and the page are there.
+/// Checks that the module and the page are there, and that the module is of the
+/// same sources as this command.
 /// @throws InputError naming what is not, and how to get it.
 void find_playground();
 

@@ -2,7 +2,7 @@
 // A weight in free fall, by Simbody behind Limber's face.
 #include <cmath>
 #include <cstdio>
-#include <limber/reference/simbody_reference.hpp>
+#include <limber/reference/verification.hpp>
 
 int main() {
   using namespace limber::reference;

@@ -2,7 +2,6 @@
 // A hinged rod at rest, with no load, must stay where it is.
 #include <cmath>
 #include <cstdio>
-#include <limber/joints/bushing.hpp>
 #include <limber/limber.hpp>
 
 int main() {

@@ -23,6 +23,7 @@ void add_wobble(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_cache(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 void add_ship(CLI::App& app, Action& action);
 
 }  // namespace limber::app

@@ -22,8 +22,8 @@ namespace limber::app {
 namespace {
 
 /// Commands whose output is their result.
-constexpr std::array<std::string_view, 6> kAnswersOnScreen = {
-    "cache", "frequencies", "info", "modes", "operate", "wobble"};
+constexpr std::array<std::string_view, 7> kAnswersOnScreen = {
+    "cache", "frequencies", "info", "modes", "operate", "schema", "wobble"};
 
 bool prints_answer(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
