@@ -105,6 +105,12 @@ ElasticMaterial take_file_material(const Mesh& mesh,
     problems.push_back(fmt::format("{}: {}", mesh.source, stated.problem));
     return {};
   }
+  if (!stated.material.anisotropy) {
+    const std::size_t before = problems.size();
+    check_isotropic(stated.material,
+                    fmt::format("{}: {}", mesh.source, stated.name), problems);
+    if (problems.size() > before) return {};
+  }
   if (is_out_of_proportion(stated.material))
     problems.push_back(fmt::format(
         "{}: {} would have a Young's modulus of {:.4g} Pa and a density of "
