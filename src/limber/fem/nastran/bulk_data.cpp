@@ -218,12 +218,14 @@ class BulkReader {
 
   /// Every element's nodes are there.
   void check_nodes() {
+    std::set<std::size_t> told;
     for (const auto& [type, block] : data_.solids) {
       const std::vector<const DeckLine*>& lines = lines_[type];
       const auto each = static_cast<std::size_t>(block.nodes_each);
       for (std::size_t i = 0; i < block.nodes.size(); ++i) {
         if (block.nodes[i] == 0 ||
-            grids_.grids().contains(static_cast<int>(block.nodes[i])))
+            grids_.grids().contains(static_cast<int>(block.nodes[i])) ||
+            !told.insert(block.nodes[i]).second)
           continue;
         problems_.add(*lines[i / each],
                       fmt::format("element {} has node {}, which is missing. "

@@ -27,17 +27,15 @@ std::optional<Vector3> read_vector(const BulkCard& card, std::size_t first,
 void GridTable::add_grid(const BulkCard& card) {
   const std::optional<int> id = card.integer(0, std::nullopt, *problems_);
   Grid grid{card.line, std::nullopt, Vector3::Zero()};
-  if (!card.field(1).empty()) {
-    grid.system = card.integer(1, std::nullopt, *problems_);
-    if (!grid.system) return;
-  }
-  if (!card.field(kMotions).empty()) {
-    grid.motions = card.integer(kMotions, std::nullopt, *problems_);
-    if (!grid.motions) return;
-  }
+  const auto read_system = [&](std::size_t field, std::optional<int>& system) {
+    if (!card.field(field).empty())
+      system = card.integer(field, std::nullopt, *problems_);
+  };
+  read_system(1, grid.system);
+  read_system(kMotions, grid.motions);
   const std::optional<Vector3> x = read_vector(card, 2, *problems_);
-  if (!id || !x) return;
-  grid.coordinates = *x;
+  if (!id) return;
+  grid.coordinates = x.value_or(Vector3::Zero());  // a problem is told once
   if (*id < 1) {
     problems_->add(*card.line,
                    fmt::format("GRID {}. Expected a number from 1.", *id));

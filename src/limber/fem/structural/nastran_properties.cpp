@@ -95,9 +95,10 @@ std::optional<BeamProperty> NastranProperties::find_beam(int id,
                                                          const DeckLine& user) {
   const auto card = cards_.find(id);
   if (card == cards_.end() || is_shell(card->second.name)) {
-    problems_->add(user, fmt::format("its property {} is missing. Expected a "
-                                     "PBAR, PBARL, PBEAM or PBEAML.",
-                                     id));
+    if (missing_.insert(id).second)
+      problems_->add(user, fmt::format("its property {} is missing. Expected a "
+                                       "PBAR, PBARL, PBEAM or PBEAML.",
+                                       id));
     return std::nullopt;
   }
   const auto [entry, is_new] = beams_.try_emplace(id);
@@ -247,9 +248,10 @@ std::optional<Laminate> NastranProperties::find_shell(int id,
                                                       const DeckLine& user) {
   const auto card = cards_.find(id);
   if (card == cards_.end() || !is_shell(card->second.name)) {
-    problems_->add(user, fmt::format("its property {} is missing. Expected a "
-                                     "PSHELL or PCOMP.",
-                                     id));
+    if (missing_.insert(id).second)
+      problems_->add(user, fmt::format("its property {} is missing. Expected a "
+                                       "PSHELL or PCOMP.",
+                                       id));
     return std::nullopt;
   }
   const auto [entry, is_new] = shells_.try_emplace(id);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "limber/fem/nastran/bulk_card.hpp"
 #include "limber/fem/structural/nastran_materials.hpp"
@@ -44,6 +45,7 @@ class NastranProperties {
   DeckProblems* problems_;
   NastranMaterials materials_;
   std::map<int, BulkCard> cards_;                  // of properties
+  std::set<int> missing_;                          // told already
   std::map<std::string_view, BulkCard> defaults_;  // by the name of bars
   std::map<int, std::optional<BeamProperty>> beams_;
   std::map<int, std::optional<Laminate>> shells_;

@@ -134,6 +134,7 @@ std::optional<int> NastranNodes::find(const BulkCard& card,
   if (!id) return std::nullopt;
   const auto found = nodes_.find(*id);
   if (found != nodes_.end()) return found->second;
+  if (!missing_.insert(*id).second) return std::nullopt;  // told already
   problems_->add(*card.line,
                  fmt::format("{} {} has node {}, which is missing. Expected "
                              "its GRID.",

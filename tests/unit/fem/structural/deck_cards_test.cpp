@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -206,6 +207,21 @@ TEST(DeckCards, AWrongMaterialIsToldOnce) {
   const std::string error = find_error("a.bdf", kGrids + bar + kPlate);
   EXPECT_THAT(error, HasSubstr("MAT1 1: E, G, NU or RHO is out of range"));
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+TEST(DeckCards, AMissingPointOrPropertyIsToldOnceAtItsFirstUse) {
+  const std::string more =
+      "CBAR,5,8,1,77,0.,1.,0.\nCBAR,6,8,2,77,0.,1.,0.\n"
+      "CBAR,7,8,2,3,0.,1.,1.\nCBAR,9,8,3,4,0.,1.,1.\n";
+  const std::string error = find_error("a.bdf", kGrids + kBar + more);
+  EXPECT_THAT(error, HasSubstr("a.bdf:9: CBAR 5 has node 77"));
+  EXPECT_THAT(error, HasSubstr("a.bdf:11: its property 8 is missing"));
+  EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
+  const std::string wrong = find_error(
+      "b.bdf", "GRID,3,,x,0.,0.\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n" + kBar +
+                   "CBAR,5,1,1,3,0.,1.,0.\n");
+  EXPECT_THAT(wrong, HasSubstr("b.bdf:1: GRID has 'X' in field 4"));
+  EXPECT_EQ(wrong.find('\n'), std::string::npos) << wrong;
 }
 
 TEST(DeckCards, TellsWhatHasNoDensityAndSupportsOfGrids) {
