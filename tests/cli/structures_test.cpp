@@ -162,6 +162,20 @@ TEST_F(Structures, ListKeywordsThatAreNotUsedAndRefuseOthers) {
   EXPECT_THAT(result.errors, HasSubstr("linear elastic: 1 *PLASTIC"));
 }
 
+TEST_F(Structures, AreDescribed) {
+  const CommandResult result =
+      place_.limber("info " + kFolder + "boom.bdf --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json info = json::parse(result.out);
+  EXPECT_EQ(info.at("kind"), "beams and shells");
+  EXPECT_EQ(info.at("beams"), 2);
+  EXPECT_NEAR(info.at("size")[0].get<double>(), 2.2, 1e-12);
+  const CommandResult operate =
+      place_.limber("operate " + kFolder + "boom.bdf");
+  EXPECT_EQ(operate.status, 2);
+  EXPECT_THAT(operate.errors, HasSubstr("needs a body of solids"));
+}
+
 /// A tube in metres and newtons, and in inches and pounds.
 TEST_F(Structures, HaveForcesInPounds) {
   const auto find_lowest = [&](const std::string& deck,
