@@ -71,4 +71,15 @@ Vector3 AbaqusMesh::find_default_axis(const InputElement& element) const {
   return std::abs(n.x()) > kAlong ? Vector3::UnitZ() : Vector3::UnitX();
 }
 
+void AbaqusMesh::require_solids(const std::string& elset,
+                                const std::string& place) const {
+  for (const long number : element_sets.get(elset)) {
+    const auto found = elements.find(number);
+    if (found != elements.end() && found->second.solid == nullptr)
+      throw InputError(fmt::format(
+          "{}: element {} is a {}. Expected a section of its own kind.", place,
+          number, found->second.type));
+  }
+}
+
 }  // namespace limber::fem

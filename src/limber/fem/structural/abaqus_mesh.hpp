@@ -40,6 +40,8 @@ struct AbaqusMesh {
   /// Axis 1 of a shell without an orientation, before its projection: x, or z
   /// where x is within 0.1 degrees of the normal (Abaqus' convention).
   [[nodiscard]] Vector3 find_default_axis(const InputElement& element) const;
+  /// @throws InputError for an element of the set that is no solid
+  void require_solids(const std::string& elset, const std::string& place) const;
 };
 
 }  // namespace limber::fem

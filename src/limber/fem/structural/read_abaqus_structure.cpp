@@ -158,18 +158,14 @@ class StructureDeckReader {
 
   void begin_other(const DeckPlace& at) {
     const std::string what = "*" + keyword_.name;
-    switch (find_keyword_effect(keyword_.name)) {
-      case KeywordEffect::on_body:
-      case KeywordEffect::generator:
-        return count_in_deck(at, what, refused_);
-      case KeywordEffect::unknown:
-        if (!is_in_step_) count_in_deck(at, what, refused_);
-        return;
-      case KeywordEffect::outside:
-      case KeywordEffect::law:
-        return count_in_deck(at, what, unused_);
-      case KeywordEffect::none:
-        return;
+    const KeywordEffect effect = find_keyword_effect(keyword_.name);
+    if (effect == KeywordEffect::outside || effect == KeywordEffect::law) {
+      count_in_deck(at, what, unused_);
+    } else if (effect == KeywordEffect::none) {
+      if (keyword_.name.ends_with("SECTION"))
+        solid_sections_.emplace_back(keyword_.get("ELSET"), at.text());
+    } else if (effect != KeywordEffect::unknown || !is_in_step_) {
+      count_in_deck(at, what, refused_);
     }
   }
 
@@ -322,6 +318,8 @@ class StructureDeckReader {
   }
 
   void check_described() const {
+    for (const auto& [elset, place] : solid_sections_)
+      mesh_.require_solids(elset, place);
     for (const auto& [number, element] : mesh_.elements)
       if (element.solid == nullptr && !described_.contains(number))
         throw InputError(fmt::format(
@@ -406,6 +404,7 @@ class StructureDeckReader {
   std::set<std::string> integrated_;  // solids with another integration
   std::vector<long> element_;         // numbers of one that goes on
   std::set<long> described_;
+  std::vector<std::pair<std::string, std::string>> solid_sections_;  // places
   std::vector<DeckMass> masses_;
   std::map<std::string, std::string> spelling_;
   std::map<std::string, std::string> places_;  // of sets of nodes
