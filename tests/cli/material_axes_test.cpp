@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "cli/command.hpp"
@@ -108,6 +109,45 @@ TEST(MaterialAxes, AreTheSameInASavedBody) {
   const json cached = answer(place, "static s.toml");
   for (const char* column : {"own.s11", "own.s22", "own.s12"})
     EXPECT_EQ(value(made, column), value(cached, column)) << column;
+}
+
+/// The half of the bar at x < 0.5 is of steel.
+TEST(MaterialAxes, AreRefusedAtIsotropicNodesAndNotAtABorder) {
+  const Workspace place;
+  write_bar(place,
+            std::string(kFibres) +
+                "group='bar' axis_1='1 0 0' "
+                "axis_2='0 1 0'/><material "
+                "group='root_half' "
+                "youngs_modulus='200e9' "
+                "poisson_ratio='0.3' density='8000'",
+            "material");
+  std::string geometry = read_text(place.folder() / "bar.geo");
+  const std::string whole =
+      "v[] = Extrude {1, 0, 0} { Surface{s[1]}; Layers{20}";
+  geometry.replace(geometry.find(whole), whole.size(),
+                   "w[] = Extrude {0.5, 0, 0} { Surface{s[1]}; Layers{10}; "
+                   "Recombine; };\nPhysical Volume(\"root_half\") = {w[1]};\n"
+                   "v[] = Extrude {0.5, 0, 0} { Surface{w[0]}; Layers{10}");
+  place.write("bar.geo", geometry);
+  const auto at = [&](double x) {
+    const std::string text = read_text(place.folder() / "s.toml");
+    place.write("at.toml",
+                std::regex_replace(text, std::regex("nearest = .0.5"),
+                                   fmt::format("nearest = [{}", x)));
+    return place.limber("static at.toml --cache c --out o");
+  };
+  const CommandResult refused = at(0.25);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("is isotropic and has no axes"));
+  for (const double x : {0.5, 0.75}) {
+    const CommandResult result = at(x);
+    EXPECT_EQ(result.status, 0) << result.errors;
+  }
+  // Uniform tension, half the bar away from its ends.
+  const json summary =
+      json::parse(read_text(place.folder() / "o/summary.json"));
+  EXPECT_NEAR(value(summary, "own.s11"), kPull, 0.03 * kPull);
 }
 
 TEST(MaterialAxes, AreRefusedWhereThereAreNone) {

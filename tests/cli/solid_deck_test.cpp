@@ -104,6 +104,17 @@ TEST_F(SolidDecks, HaveAUnitOfForce) {
   expect_refusal("one.bdf", "which no solid has");
 }
 
+TEST_F(SolidDecks, RefusePoissonsRatiosThatNoSolidHas) {
+  for (const char* ratio : {".5", ".6", "-1."}) {
+    place_.write("half.bdf", std::string("GRID,1,,0.,0.,0.\nGRID,2,,3.,0.,0.\n"
+                                         "GRID,3,,0.,2.,0.\nGRID,4,,0.,0.,1.\n"
+                                         "CTETRA,1,1,1,2,3,4\nPSOLID,1,1\n"
+                                         "MAT1,1,7.+10,,") +
+                                 ratio + ",2700.\n");
+    expect_refusal("half.bdf", "MAT1 1: Poisson's ratio");
+  }
+}
+
 TEST_F(SolidDecks, RefuseWhatASolidBodyLacksByItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"CQUAD4,9,2,1,2,3,4\nPSHELL,2,1,1.\n", "one.bdf:10: PSHELL 2: MID1"},

@@ -148,13 +148,58 @@ TEST_F(Structures, TellWhatWouldBeLost) {
               HasSubstr("bad.bdf:7: RBE3 3: REFC is '1.'. Expected 123456"));
 }
 
-TEST_F(Structures, ListKeywordsThatAreNotUsed) {
+TEST_F(Structures, ListKeywordsThatAreNotUsedAndRefuseOthers) {
   std::string deck = read_text(kFolder + "frame20.inp");
-  deck.insert(deck.find("*DENSITY"), "*PLASTIC\n1e9, 0.\n*$TEP\n");
+  deck.insert(deck.find("*DENSITY"), "*PLASTIC\n1e9, 0.\n*STOP\n");
   place_.write("frame.inp", deck);
-  const CommandResult result = place_.limber("modes frame.inp --count 1");
-  EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.errors, HasSubstr("not used: 1 *$TEP, 1 *PLASTIC"));
+  const CommandResult refused = place_.limber("modes frame.inp --count 1");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("*STOP would be lost"));
+  const CommandResult result =
+      place_.limber("modes frame.inp --count 1 --ignore STOP");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("so that the body lacks them: 1 *STOP"));
+  EXPECT_THAT(result.errors, HasSubstr("linear elastic: 1 *PLASTIC"));
+}
+
+TEST_F(Structures, AreDescribed) {
+  const CommandResult result =
+      place_.limber("info " + kFolder + "boom.bdf --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json info = json::parse(result.out);
+  EXPECT_EQ(info.at("kind"), "beams and shells");
+  EXPECT_EQ(info.at("beams"), 2);
+  EXPECT_NEAR(info.at("size")[0].get<double>(), 2.2, 1e-12);
+  const CommandResult operate =
+      place_.limber("operate " + kFolder + "boom.bdf");
+  EXPECT_EQ(operate.status, 2);
+  EXPECT_THAT(operate.errors, HasSubstr("needs a body of solids"));
+}
+
+/// A tube in metres and newtons, and in inches and pounds.
+TEST_F(Structures, HaveForcesInPounds) {
+  const auto find_lowest = [&](const std::string& deck,
+                               const std::string& more) {
+    place_.write("tube.bdf", deck);
+    const CommandResult result =
+        place_.limber("modes tube.bdf --count 1 --json" + more);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out)["frequencies_hz"][0].get<double>();
+  };
+  const std::string ends = "GRID,1,,0.,0.,0.\nCBAR,1,1,1,2,0.,1.,0.\n";
+  const double metric =
+      find_lowest(ends +
+                      "GRID,2,,2.54,0.,0.\nPBARL,1,1,,TUBE\n,.0508,.0254\n"
+                      "MAT1,1,6.894757293168361E+10,,.3,2767.9342783\n",
+                  "");
+  const std::string imperial = ends +
+                               "GRID,2,,100.,0.,0.\nPBARL,1,1,,TUBE\n,2.,1.\n"
+                               "MAT1,1,1.E+7,,.3,2.5900266E-4\n";
+  EXPECT_NEAR(find_lowest(imperial, " --unit in --force-unit lbf"), metric,
+              1e-6 * metric);
+  const CommandResult result = place_.limber("modes tube.bdf --unit in");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("unit of force is not known"));
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ std::optional<double> parse_length_unit(std::string_view text) {
   return find_unit(kMetres, text);
 }
 
+bool is_metric(double metres) {
+  return metres == 1.0 || metres == 1e-2 || metres == 1e-3;
+}
+
 std::optional<double> parse_force_unit(std::string_view text) {
   return find_unit(kNewtons, text);
 }

@@ -76,17 +76,18 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
 
 namespace {
 
-// 9 x points; 9 x 0 if no material has any.
+// 9 x points, zero where a material has none; 9 x 0 if no material has any.
 MatrixX find_material_axes(const fem::Mesh& mesh, const fem::NodalStress& nodal,
                            const std::vector<std::size_t>& points) {
   const bool have_axes =
       std::any_of(nodal.constants.begin(), nodal.constants.end(),
                   [](const auto& c) { return c.anisotropy.has_value(); });
   if (!have_axes) return MatrixX(9, 0);
-  MatrixX axes(9, std::ssize(points));
+  MatrixX axes = MatrixX::Zero(9, std::ssize(points));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t point = points[i];
     const auto material = static_cast<std::size_t>(nodal.materials[point]);
+    if (!nodal.constants[material].anisotropy) continue;
     const Matrix3 at =
         find_axes(nodal.constants[material], mesh.x.col(nodal.nodes[point]));
     axes.col(static_cast<Eigen::Index>(i)) = at.reshaped();

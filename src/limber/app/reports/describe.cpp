@@ -15,6 +15,7 @@
 #include "limber/scene/scenario/time_settings_reader.hpp"
 #ifdef LIMBER_HAS_REDUCTION
 #include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/structural/read_structure.hpp"
 #endif
 
 namespace limber::app {
@@ -247,8 +248,34 @@ Json describe_hdf5(const std::filesystem::path& file) {
                                         : describe_body(file);
 }
 
+#ifdef LIMBER_HAS_REDUCTION
+namespace {
+
+/// A deck of beams and shells.
+Json describe_structure(const std::filesystem::path& file, double unit) {
+  const fem::Structure structure = fem::read_structure(file);
+  Json groups = Json::array();
+  for (const fem::MatrixNodeSet& set : structure.sets)
+    groups.push_back(Json{{"name", set.name}, {"nodes", set.nodes.size()}});
+  const Vector3 size =
+      structure.x.rowwise().maxCoeff() - structure.x.rowwise().minCoeff();
+  Json json = {{"kind", "beams and shells"},
+               {"nodes", structure.tags.size()},
+               {"beams", structure.beams.size()},
+               {"shells", structure.shells.size()},
+               {"solids", structure.has_solids},
+               {"size", to_json((unit > 0.0 ? unit : 1.0) * size)},
+               {"groups", groups}};
+  if (!structure.notices.empty()) json["notices"] = structure.notices;
+  return json;
+}
+
+}  // namespace
+#endif
+
 Json describe_mesh(const std::filesystem::path& file, double unit) {
 #ifdef LIMBER_HAS_REDUCTION
+  if (fem::is_structure(file)) return describe_structure(file, unit);
   fem::MeshOptions options;
   options.unit = unit;
   const fem::TracedMesh traced = fem::read_traced_mesh(file, options);

@@ -14,6 +14,7 @@
 #include "limber/fem/mesh/node_weights.hpp"
 #include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/reduction/matrices/reduce_matrices.hpp"
 #include "limber/reduction/operating_states.hpp"
 #endif
 
@@ -180,6 +181,11 @@ OperatingAnswer find_operating_state(const flexbody::Recipe& recipe,
                                      const OperatingRequest& request,
                                      const Progress& progress) {
   check(request);
+  if (flexbody::is_node_model(recipe.mesh))
+    throw InputError(fmt::format(
+        "{}: steady motion needs a body of solids, and its beams and shells "
+        "are another kind. Expected solids.",
+        recipe.mesh.file.string()));
   const MeshedBody body(recipe, progress);
   const OperatingState state = solve(body, request);
   OperatingAnswer answer;

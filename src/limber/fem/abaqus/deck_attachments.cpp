@@ -24,12 +24,14 @@ unsigned find_named_mask(const std::string& name) {
 void DeckAttachments::add_data(const DeckPlace& at, const Keyword& keyword,
                                std::string_view line) {
   if (keyword.name == "MASS") {
+    if (keyword.has("TYPE") && !keyword.get("TYPE").starts_with("ISO"))
+      at.fail("*MASS has another TYPE. Expected the same mass along all axes.");
     const std::string_view field = split_commas(line)[0];
     double mass = 0.0;
     if (!parse_real(field, mass) || !(mass >= 0.0))
       at.fail(
           fmt::format("*MASS is '{}'. Expected a number >= 0.", echo(field)));
-    masses_.push_back({keyword.get("ELSET"), mass});
+    masses_.push_back({at.text(), keyword.get("ELSET"), mass});
   } else if (keyword.name == "BOUNDARY") {
     add_support(at, line);
   }

@@ -12,6 +12,7 @@ namespace limber::fem {
 
 /// *MASS: of each element of a set.
 struct DeckMass {
+  std::string place;  ///< "file:line"
   std::string elset;
   double mass = 0.0;  ///< >= 0 [deck units]
 };

@@ -11,52 +11,15 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/upper_case.hpp"
+#include "limber/fem/abaqus/keyword_effect.hpp"
 #include "limber/fem/text/flat_deck.hpp"
 
 namespace limber::fem {
 namespace {
 
-/// Of a body; they would be lost.
-constexpr std::array<std::string_view, 14> kConstraints = {
-    "EQUATION",
-    "MPC",
-    "TIE",
-    "RIGID BODY",
-    "COUPLING",
-    "KINEMATIC COUPLING",
-    "DISTRIBUTING COUPLING",
-    "EMBEDDED ELEMENT",
-    "SHELL TO SOLID COUPLING",
-    "CYCLIC SYMMETRY MODEL",
-    "CONTACT PAIR",
-    "CONTACT",
-    "PRE-TENSION SECTION",
-    "SUBSTRUCTURE PROPERTY"};
-
-/// They make or move nodes and elements.
-constexpr std::array<std::string_view, 7> kGenerators = {
-    "SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"};
-
-/// Of the scene.
-constexpr std::array<std::string_view, 12> kOutside = {
-    "BOUNDARY",    "CLOAD",       "DLOAD",
-    "DSLOAD",      "TEMPERATURE", "INITIAL CONDITIONS",
-    "BASE MOTION", "FILM",        "RADIATE",
-    "CFLUX",       "DFLUX",       "MODEL CHANGE"};
-
-/// Of materials, beside linear elasticity.
-constexpr std::array<std::string_view, 6> kLaws = {
-    "PLASTIC",   "CREEP",   "VISCOELASTIC",
-    "EXPANSION", "DAMPING", "CYCLIC HARDENING"};
-
 template <typename List>
 bool has_keyword(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != list.end();
-}
-
-void count(const DeckPlace& at, const std::string& what, DeckCounts& counts) {
-  DeckCount& entry = counts[what];
-  if (entry.count++ == 0) entry.first = at.text();
 }
 
 class ContentReader {
@@ -93,23 +56,53 @@ class ContentReader {
     for (const char* key : {"ELSET", "NSET", "NAME"})
       if (keyword_.has(key))
         deck_.spelling.try_emplace(keyword_.get(key), keyword_.spelled[key]);
-    if (has_keyword(kGenerators, name) ||
-        (name == "NODE" && keyword_.has("SYSTEM") &&
-         keyword_.get("SYSTEM") != "R"))
-      at.fail(fmt::format(
-          "*{} makes or moves nodes. Expected all of them, in the global axes, "
-          "under *NODE and *ELEMENT.",
-          echo(name)));
-    if (has_keyword(kConstraints, name))
-      count(at, "*" + name, deck_.constraints);
-    if (has_keyword(kOutside, name)) count(at, "*" + name, deck_.unused);
-    if (has_keyword(kLaws, name)) count(at, "*" + name, deck_.laws);
+    if (name == "NODE" && keyword_.has("SYSTEM") &&
+        keyword_.get("SYSTEM") != "R")
+      refuse_generator(at);
+    is_in_step_ = name == "STEP" || (is_in_step_ && name != "END STEP");
+    switch (find_keyword_effect(name)) {
+      case KeywordEffect::generator:
+        refuse_generator(at);
+      case KeywordEffect::on_body:
+        count_in_deck(at, "*" + name, deck_.constraints);
+        break;
+      case KeywordEffect::unknown:
+        if (!is_in_step_) count_in_deck(at, "*" + name, deck_.constraints);
+        break;
+      case KeywordEffect::outside:
+        count_in_deck(at, "*" + name, deck_.unused);
+        break;
+      case KeywordEffect::law:
+        count_in_deck(at, "*" + name, deck_.laws);
+        break;
+      case KeywordEffect::none:
+        break;
+    }
+    require_name(at);
     deck_.materials.begin(at, keyword_, pose);
     if (name == "SURFACE" && keyword_.has("TYPE") &&
         keyword_.get("TYPE") == "NODE")
       keyword_.name = "SURFACE OF NODES";
     if (name == "NSET" && keyword_.has("ELSET"))
       deck_.nodes_of.push_back(keyword_);
+  }
+
+  /// Of what others refer to.
+  void require_name(const DeckPlace& at) {
+    const std::string& name = keyword_.name;
+    const bool is_set = name == "NSET" || name == "ELSET";
+    if (!is_set && name != "SURFACE" && name != "MATERIAL") return;
+    const std::string key = is_set ? name : "NAME";
+    if (keyword_.get(key).empty())
+      at.fail(fmt::format("*{} has no name. Expected {}=NAME.", name, key));
+    if (is_set) deck_.places.try_emplace(keyword_.get(key), at.text());
+  }
+
+  [[noreturn]] void refuse_generator(const DeckPlace& at) const {
+    at.fail(fmt::format(
+        "*{} makes or moves nodes. Expected all of them, in the global axes, "
+        "under *NODE and *ELEMENT.",
+        echo(keyword_.name)));
   }
 
   void add_data(const DeckPlace& at, std::string_view line) {
@@ -185,7 +178,7 @@ class ContentReader {
                          (fields[1][0] == 'S' || fields[1][0] == 's') &&
                          parse_whole(fields[1].substr(1), face);
     if (!is_face) {  // of shells, or the free faces of a set
-      count(at, "*SURFACE without faces S1, S2, ...", deck_.unused);
+      count_in_deck(at, "*SURFACE without faces S1, S2, ...", deck_.unused);
       return;
     }
     deck_.surfaces[keyword_.get("NAME")].push_back(
@@ -200,6 +193,7 @@ class ContentReader {
 
   DeckContent deck_;
   Keyword keyword_;
+  bool is_in_step_ = false;
   std::vector<long> element_;  // numbers of one that goes on
 };
 

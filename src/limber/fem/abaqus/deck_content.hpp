@@ -10,19 +10,13 @@
 
 #include "limber/common/types.hpp"
 #include "limber/fem/abaqus/deck_attachments.hpp"
+#include "limber/fem/abaqus/deck_counts.hpp"
 #include "limber/fem/abaqus/deck_materials.hpp"
 #include "limber/fem/abaqus/solid_type.hpp"
 #include "limber/fem/mesh/solid_deck.hpp"
 #include "limber/fem/text/deck_sets.hpp"
 
 namespace limber::fem {
-
-/// Keywords or elements of one kind.
-struct DeckCount {
-  int count = 0;
-  std::string first = {};  ///< "file:line"
-};
-using DeckCounts = std::map<std::string, DeckCount>;
 
 struct DeckElement {
   std::size_t number = 0;
@@ -54,7 +48,8 @@ struct DeckContent {
   DeckAttachments attachments;
   /// Names of sets and surfaces, which are in upper case, as first written.
   std::map<std::string, std::string> spelling;
-  DeckCounts constraints;  ///< and contact
+  std::map<std::string, std::string> places;  ///< of *NSET, *ELSET by name
+  DeckCounts constraints;  ///< contact, and keywords that are not known
   DeckCounts unused;       ///< supports, loads
   DeckCounts laws;         ///< of materials, beside linear elasticity
   std::vector<std::string> notices;

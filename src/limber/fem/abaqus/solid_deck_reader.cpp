@@ -84,13 +84,19 @@ class SolidDeckReader {
     return described;
   }
 
+  /// A solid that the user does not leave out.
+  [[nodiscard]] bool is_read(const DeckElement& element) const {
+    return element.solid != nullptr &&
+           !ignored_.contains(fmt::format("elements {}", element.type));
+  }
+
   void refuse_others() {
     const std::set<long> described = find_described();
     for (const DeckMass& point : content_.attachments.masses())
       for (const long number : content_.find_elements(point.elset))
         weighed_.insert(number);
     for (const DeckElement& element : content_.elements) {
-      if (element.solid != nullptr) continue;
+      if (is_read(element)) continue;
       const auto number = static_cast<long>(element.number);
       const bool is_described = described.contains(number);
       if (find_mark(element.type) && !is_described) continue;
@@ -105,19 +111,13 @@ class SolidDeckReader {
     for (const std::string& name : ignored_)
       if (auto entry = refused_.extract(name))
         left_out_.insert(std::move(entry));
-    std::vector<std::string> problems;
-    for (const auto& [what, entry] : refused_)
-      problems.push_back(fmt::format(
-          "{}: {}{} would be lost. Expected solid elements (C3D4, C3D10, "
-          "C3D8, C3D20, C3D6, C3D15, C3D5) and *MASS; beams, shells, rigid "
-          "bodies and couplings where nothing is ignored. Leave it out and "
-          "model it in the scene by links and joints, bring the body by its "
-          "matrices, or ignore {} to go on without.",
-          entry.first, what,
-          entry.count == 1 ? std::string()
-                           : fmt::format(" ({}, the first here)", entry.count),
-          what.substr(what.find_first_of(" *") + 1)));
-    if (!problems.empty()) throw InputError(problems);
+    refuse_in_deck(
+        refused_,
+        "Expected solid elements (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, C3D5) "
+        "and *MASS; beams, shells, rigid bodies and couplings make it a body "
+        "of another kind. Leave it out and model it in the scene by links and "
+        "joints, "
+        "bring the body by its matrices");
   }
 
   void set_nodes() {
@@ -128,16 +128,29 @@ class SolidDeckReader {
     }
   }
 
+  [[noreturn]] void refuse_member(const std::string& set, const char* what,
+                                  long number) const {
+    const auto place = content_.places.find(set);
+    throw InputError(fmt::format(
+        "{}: the set {} has {} {}, which is missing. Expected it under *NODE "
+        "or *ELEMENT.",
+        place == content_.places.end() ? file_.string() : place->second,
+        echo(content_.spell(set)), what, number));
+  }
+
   /// Elements of the same sets are a region.
   void set_solids() {
     std::unordered_map<std::size_t, std::vector<std::string>> sets;
     for (const auto& [name, numbers] : content_.element_sets.all())
-      for (const long number : std::set<long>(numbers.begin(), numbers.end()))
+      for (const long number : std::set<long>(numbers.begin(), numbers.end())) {
+        if (content_.find(number) == nullptr)
+          refuse_member(name, "element", number);
         sets[static_cast<std::size_t>(number)].push_back(content_.spell(name));
+      }
     const SectionOf section_of = find_sections();
     std::map<std::vector<std::string>, int> regions;
     for (const DeckElement& element : content_.elements) {
-      if (element.solid == nullptr) continue;
+      if (!is_read(element)) continue;
       check_nodes(element);
       const std::vector<std::string>& names = sets[element.number];
       const auto [region, is_new] =
@@ -187,15 +200,30 @@ class SolidDeckReader {
 
   void set_masses() {
     if (ignored_.contains("elements MASS")) return;
+    std::set<long> with_mass;
     for (const DeckMass& point : content_.attachments.masses()) {
-      for (const long number : content_.find_elements(point.elset)) {
-        if (!is_point_mass(number)) continue;
+      const std::vector<long> numbers = content_.find_elements(point.elset);
+      if (numbers.empty())
+        throw InputError(fmt::format(
+            "{}: *MASS has the set {}, which is missing or empty. Expected "
+            "one of elements MASS.",
+            point.place, echo(point.elset)));
+      for (const long number : numbers) {
+        if (!is_point_mass(number))
+          throw InputError(fmt::format(
+              "{}: *MASS has element {}, which is no MASS. Expected a set of "
+              "elements MASS.",
+              point.place, number));
         const DeckElement& element = *content_.find(number);
         if (element.nodes.size() != 1 || !used_.contains(element.nodes[0]))
           throw InputError(fmt::format(
               "{}: the mass {} is not at one node of a solid. Expected one; a "
               "mass on arms is a link of the scene.",
               content_.place_of(element), number));
+        if (!with_mass.insert(number).second)
+          throw InputError(
+              fmt::format("{}: element {} has a *MASS already. Expected one.",
+                          point.place, number));
         deck_.masses[element.nodes[0]] += point.mass;
       }
     }
@@ -246,6 +274,7 @@ class SolidDeckReader {
       DeckGroup group{content_.spell(name), 0, {}};
       for (const long number : std::set<long>(numbers.begin(), numbers.end())) {
         const auto node = static_cast<std::size_t>(number);
+        if (!content_.nodes.contains(node)) refuse_member(name, "node", number);
         append(kPoint, {0}, {.number = node, .nodes = {node}}, 0,
                group.elements);
       }
@@ -285,7 +314,7 @@ class SolidDeckReader {
                       part.place, group.name, echo(part.of)));
     for (const long number : numbers) {
       const DeckElement* element = content_.find(number);
-      if (element == nullptr || element->solid == nullptr) continue;
+      if (element == nullptr || !is_read(*element)) continue;
       const auto& faces = element->solid->faces;
       const auto face = static_cast<std::size_t>(part.face) - 1;
       if (face >= faces.size())
@@ -315,13 +344,8 @@ class SolidDeckReader {
     report_unused_nodes();
     report_types();
     const auto tell = [this](const DeckCounts& counts, const char* why) {
-      if (counts.empty()) return;
-      std::vector<std::string> texts;
-      for (const auto& [what, entry] : counts)
-        texts.push_back(
-            fmt::format("{} {} ({})", entry.count, what, entry.first));
-      deck_.notices.push_back(fmt::format("{}: {}: {}.", file_.string(), why,
-                                          fmt::join(texts, ", ")));
+      for (std::string& note : list_deck_counts(counts, file_.string(), why))
+        deck_.notices.push_back(std::move(note));
     };
     tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(edges_, "left out as edges, as no section describes them");

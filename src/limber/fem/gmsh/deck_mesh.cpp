@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/length_unit.hpp"
 
 namespace limber::fem {
 namespace {
@@ -72,10 +73,6 @@ void convert(double unit, double force, SolidMaterial& material) {
   if (!material.anisotropy) return;
   material.anisotropy->C *= stress;
   material.anisotropy->axes.point *= unit;
-}
-
-bool is_metric(double unit) {
-  return unit == 1.0 || unit == 1e-2 || unit == 1e-3;
 }
 
 /// Empty if there are none. Decks in inches or feet have forces in pounds or in

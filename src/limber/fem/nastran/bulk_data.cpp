@@ -16,6 +16,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/upper_case.hpp"
 #include "limber/fem/nastran/bulk_card.hpp"
+#include "limber/fem/nastran/card_counts.hpp"
 #include "limber/fem/nastran/card_effect.hpp"
 #include "limber/fem/nastran/grid_table.hpp"
 #include "limber/fem/nastran/mid_side_nodes.hpp"
@@ -26,25 +27,18 @@
 namespace limber::fem {
 namespace {
 
-/// Cards of one name.
-struct CardCount {
-  const DeckLine* first = nullptr;
-  int count = 0;
-};
-using CardCounts = std::map<std::string, CardCount, std::less<>>;
-
-void count_card(const BulkCard& card, CardCounts& counts,
-                std::string_view with = "") {
-  CardCount& entry = counts[std::string(card.name) + std::string(with)];
-  if (entry.count++ == 0) entry.first = card.line;
-}
-
 const SolidCard* find_solid_card(std::string_view name) {
   const auto* const found =
       std::find_if(kSolidCards.begin(), kSolidCards.end(),
                    [&](const SolidCard& card) { return card.name == name; });
   return found == kSolidCards.end() ? nullptr : found;
 }
+
+constexpr std::string_view kExpected =
+    "Expected solid elements (CTETRA, CPENTA, CHEXA, CPYRAM), CONM2, RBE2 and "
+    "RBE3; beams and shells with properties make it a body of another kind. "
+    "Mesh it with solids, or remove it and model it in the scene by links and "
+    "joints";
 
 class BulkReader {
  public:
@@ -63,8 +57,8 @@ class BulkReader {
     BulkCard card;
     while (reader.next(card)) add(card);
     if (!has_properties_) pass_over_marks();
-    pass_over_ignored();
-    for (const auto& [name, refused] : refused_) refuse(name, refused);
+    left_out_ = extract_ignored(ignored_, refused_);
+    refuse_cards(refused_, "is not a solid", kExpected, problems_);
     set_positions();
     set_materials();
     attachments_.resolve(used_, materials_.mass_factor(), data_);
@@ -77,7 +71,9 @@ class BulkReader {
  private:
   void add(const BulkCard& card) {
     has_properties_ |= is_property(card.name);
-    if (const SolidCard* const solid = find_solid_card(card.name)) {
+    if (ignored_.contains(std::string(card.name))) {
+      count_card(card, refused_);
+    } else if (const SolidCard* const solid = find_solid_card(card.name)) {
       add_solid(card, *solid);
     } else if (card.name == "GRID") {
       grids_.add_grid(card);
@@ -89,12 +85,21 @@ class BulkReader {
       grids_.add_system(card);
     } else if (materials_.add(card)) {
       return;
-    } else if (!ignored_.contains(std::string(card.name)) &&
-               attachments_.add(card)) {
-      if (card.name.starts_with("SPC")) count_card(card, unused_);
-    } else if (find_card_effect(card.name) == CardEffect::on_body) {
+    } else if (attachments_.add(card)) {
+      if (card.name.starts_with("SPC"))
+        count_card(card, unused_);
+      else if (const auto id = card.integer(0, std::nullopt, problems_))
+        take_number(*id, card);
+    } else {
+      add_other(card);
+    }
+  }
+
+  void add_other(const BulkCard& card) {
+    const CardEffect effect = find_card_effect(card.name);
+    if (effect == CardEffect::on_body || effect == CardEffect::unknown) {
       count_card(card, refused_);
-    } else if (find_card_effect(card.name) == CardEffect::outside ||
+    } else if (effect == CardEffect::outside ||
                card.name.starts_with("MATS")) {  // a law beyond elasticity
       count_card(card, unused_);
     }
@@ -107,6 +112,15 @@ class BulkReader {
       count_card(card, unused_, " with supports (PS)");
   }
 
+  bool take_number(int id, const BulkCard& card) {
+    if (id > 0 && elements_.insert(id).second) return true;
+    problems_.add(*card.line,
+                  fmt::format("element {} is there twice, or below 1. "
+                              "Expected a number of its own.",
+                              id));
+    return false;
+  }
+
   void add_solid(const BulkCard& card, const SolidCard& solid) {
     const std::optional<int> id = card.integer(0, std::nullopt, problems_);
     const std::optional<int> property =
@@ -114,13 +128,7 @@ class BulkReader {
     const std::optional<std::vector<std::size_t>> nodes =
         read_nodes(card, solid);
     if (!id || !property || !nodes) return;
-    if (*id < 1 || !elements_.insert(*id).second) {
-      problems_.add(*card.line,
-                    fmt::format("element {} is there twice, or below 1. "
-                                "Expected a number of its own.",
-                                *id));
-      return;
-    }
+    if (!take_number(*id, card)) return;
     const bool is_linear =
         nodes->size() == static_cast<std::size_t>(solid.corners);
     const int type = is_linear ? solid.linear_type : solid.quadratic_type;
@@ -190,28 +198,6 @@ class BulkReader {
     }
   }
 
-  void pass_over_ignored() {
-    for (const std::string& name : ignored_)
-      if (auto entry = refused_.extract(name))
-        left_out_.insert(std::move(entry));
-  }
-
-  void refuse(const std::string& name, const CardCount& refused) {
-    problems_.add(
-        *refused.first,
-        fmt::format(
-            "{}{} {} and would be lost. Expected solid elements (CTETRA, "
-            "CPENTA, CHEXA, CPYRAM), CONM2, RBE2 and RBE3; beams and "
-            "shells with properties where nothing is ignored. Mesh it with "
-            "solids, or remove it and model it in the scene by links and "
-            "joints; or ignore {} to go on without.",
-            name,
-            refused.count == 1
-                ? std::string()
-                : fmt::format(" ({} cards, the first here)", refused.count),
-            name == "MPC" ? "constrains nodes" : "is not a solid", name));
-  }
-
   void set_positions() {
     std::vector<int> ids;
     for (const auto& [id, grid] : grids_.grids()) ids.push_back(id);
@@ -232,12 +218,14 @@ class BulkReader {
 
   /// Every element's nodes are there.
   void check_nodes() {
+    std::set<std::size_t> told;
     for (const auto& [type, block] : data_.solids) {
       const std::vector<const DeckLine*>& lines = lines_[type];
       const auto each = static_cast<std::size_t>(block.nodes_each);
       for (std::size_t i = 0; i < block.nodes.size(); ++i) {
         if (block.nodes[i] == 0 ||
-            grids_.grids().contains(static_cast<int>(block.nodes[i])))
+            grids_.grids().contains(static_cast<int>(block.nodes[i])) ||
+            !told.insert(block.nodes[i]).second)
           continue;
         problems_.add(*lines[i / each],
                       fmt::format("element {} has node {}, which is missing. "
@@ -253,36 +241,20 @@ class BulkReader {
       data_.notices.push_back(fmt::format(
           "{}: left out as marks of the surface, as the deck has no "
           "properties: {}.",
-          deck_.files[0].string(), list_counts(marks_)));
-    if (!left_out_.empty())
-      data_.notices.push_back(fmt::format(
-          "{}: left out as you ask, so that the body lacks them: {}.",
-          deck_.files[0].string(), list_counts(left_out_)));
+          deck_.files[0].string(), list_counts(deck_, marks_)));
+    for (std::string& note : note_left_out(deck_, left_out_))
+      data_.notices.push_back(std::move(note));
     if (!unused_.empty())
       data_.notices.push_back(
           fmt::format("{}: not used: {}. Supports and loads are those of the "
                       "scene; nodes of solids that SPC and SPC1 hold in 1, 2 "
                       "and 3 are the sets spc:SID.",
-                      deck_.files[0].string(), list_counts(unused_)));
+                      deck_.files[0].string(), list_counts(deck_, unused_)));
     if (!deck_.has_end)
       data_.notices.push_back(
           fmt::format("{}: it has no ENDDATA, so whether it is complete is not "
                       "known.",
                       deck_.files[0].string()));
-  }
-
-  [[nodiscard]] std::string list_counts(const CardCounts& counts) const {
-    std::vector<std::string> texts;
-    for (const auto& [name, cards] : counts)
-      texts.push_back(fmt::format("{} {} (line {}{})", cards.count, name,
-                                  cards.first->number,
-                                  name_of_included(*cards.first)));
-    return fmt::format("{}", fmt::join(texts, ", "));
-  }
-
-  [[nodiscard]] std::string name_of_included(const DeckLine& line) const {
-    if (line.file == 0) return {};
-    return " of " + deck_.files[line.file].filename().string();
   }
 
   void report_unused_grids() {

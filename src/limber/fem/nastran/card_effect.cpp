@@ -13,14 +13,33 @@ constexpr std::array<std::string_view, 17> kNoElements = {
     "CREEP",  "CSET",   "CSET1",  "CSSCHD",  "CYAX",   "CYJOIN",
     "CYSUP",  "CYSYM",  "CONV",   "CONTRLT", "CAMPBLL"};
 
-constexpr std::array<std::string_view, 14> kConstraints = {
-    "GENEL",  "MPC",  "RBAR",    "RBAR1",  "RBE1",   "RBE2",    "RBE3",
-    "RJOINT", "RROD", "RSPLINE", "RSSCON", "RTRPLT", "RTRPLT1", "RBE2GS"};
+constexpr std::array<std::string_view, 22> kOfBody = {
+    "GENEL",   "MPC",    "RBAR",  "RBAR1",   "RBE1",   "RBE2",
+    "RBE3",    "RJOINT", "RROD",  "RSPLINE", "RSSCON", "RTRPLT",
+    "RTRPLT1", "RBE2GS", "NSM",   "NSM1",    "NSML",   "NSML1",
+    "NSMADD",  "BOLT",   "BGADD", "BGSET"};
 
 /// Beginnings of names without effect: materials, properties and parameters,
-/// methods of solution, sets, tables, temperatures.
-constexpr std::array<std::string_view, 9> kWithoutEffect = {
-    "MAT", "P", "EIG", "SET", "TABL", "TEMP", "NLPARM", "TSTEP", "DTI"};
+/// methods of solution, sets, tables, temperatures, defaults of bars.
+constexpr std::array<std::string_view, 13> kWithoutEffect = {
+    "MAT",    "P",     "EIG", "SET",  "TABL",  "TABD",  "TEMP",
+    "NLPARM", "TSTEP", "DTI", "ECHO", "BAROR", "BEAMOR"};
+
+/// Beginnings of names of supports, loads, sets of unknowns, motions at the
+/// start, matrices and equations that the case control selects, contact,
+/// design, aerodynamics, heat.
+constexpr std::array<std::string_view, 76> kOutside = {
+    "ACCEL",   "ACMODL",  "ACSRCE",  "AE",     "AS",      "BC",      "BDYOR",
+    "BEDGE",   "BFRIC",   "BLSEG",   "BNDFIX", "BNDFREE", "BNDGRID", "BOUTPUT",
+    "BSET",    "BSURF",   "CLOAD",   "DAREA",  "DCON",    "DDVAL",   "DEFORM",
+    "DELAY",   "DES",     "DIVERG",  "DLINK",  "DLOAD",   "DMI",     "DOPT",
+    "DPHASE",  "DRESP",   "DSCREEN", "DTABLE", "DV",      "EPOINT",  "EXTRN",
+    "FLFACT",  "FLUTTER", "FORCE",   "FREEPT", "FREQ",    "GRAV",    "GUST",
+    "HYBDAMP", "LOAD",    "LSEQ",    "MKAERO", "MODTRAK", "MOMENT",  "MPCADD",
+    "NLOAD",   "NOLIN",   "OMIT",    "OSET",   "OUT",     "QBDY",    "QHBDY",
+    "QSET",    "QVECT",   "QVOL",    "RADBC",  "RANDPS",  "RFORCE",  "RLOAD",
+    "ROTOR",   "SECSET",  "SEQGP",   "SLOAD",  "SPC",     "SPLINE",  "SPOINT",
+    "SUP",     "SWLDPRM", "TF",      "TIC",    "TLOAD",   "TRIM"};
 
 template <typename List>
 bool is_listed(const List& list, std::string_view name) {
@@ -35,14 +54,17 @@ bool is_pressure(std::string_view name) {
 }  // namespace
 
 CardEffect find_card_effect(std::string_view name) {
-  if (is_listed(kConstraints, name)) return CardEffect::on_body;
+  if (is_listed(kOfBody, name)) return CardEffect::on_body;
   if (name.starts_with('C') && !is_listed(kNoElements, name))
     return CardEffect::on_body;
-  if (is_pressure(name)) return CardEffect::outside;
-  return std::any_of(kWithoutEffect.begin(), kWithoutEffect.end(),
-                     [&](auto start) { return name.starts_with(start); })
-             ? CardEffect::none
-             : CardEffect::outside;
+  const auto begins = [&](std::string_view start) {
+    return name.starts_with(start);
+  };
+  if (is_pressure(name) || is_listed(kNoElements, name) ||
+      std::ranges::any_of(kOutside, begins))
+    return CardEffect::outside;
+  return std::ranges::any_of(kWithoutEffect, begins) ? CardEffect::none
+                                                     : CardEffect::unknown;
 }
 
 bool is_mark_of_surface(std::string_view name) {

@@ -8,12 +8,12 @@ namespace limber::fem {
 /// What a card that is not read means for the elastic body.
 enum class CardEffect {
   on_body,  ///< an element, a mass or a constraint between nodes
+  unknown,  ///< of no known kind: it may be any of these
   outside,  ///< support, load or another that the scene has in its own way
   none      ///< properties, materials, settings of analyses, output
 };
 
-/// By its name. Unknown names beginning with C are elements; others are
-/// outside.
+/// By its name. Unknown names beginning with C are elements.
 [[nodiscard]] CardEffect find_card_effect(std::string_view name);
 
 /// Shells and bars by which mesh generators mark faces and edges of a solid.

@@ -9,6 +9,8 @@
 namespace limber::fem {
 namespace {
 
+constexpr std::size_t kMotions = 5;  // CD
+
 std::optional<Vector3> read_vector(const BulkCard& card, std::size_t first,
                                    DeckProblems& problems) {
   Vector3 vector;
@@ -25,13 +27,15 @@ std::optional<Vector3> read_vector(const BulkCard& card, std::size_t first,
 void GridTable::add_grid(const BulkCard& card) {
   const std::optional<int> id = card.integer(0, std::nullopt, *problems_);
   Grid grid{card.line, std::nullopt, Vector3::Zero()};
-  if (!card.field(1).empty()) {
-    grid.system = card.integer(1, std::nullopt, *problems_);
-    if (!grid.system) return;
-  }
+  const auto read_system = [&](std::size_t field, std::optional<int>& system) {
+    if (!card.field(field).empty())
+      system = card.integer(field, std::nullopt, *problems_);
+  };
+  read_system(1, grid.system);
+  read_system(kMotions, grid.motions);
   const std::optional<Vector3> x = read_vector(card, 2, *problems_);
-  if (!id || !x) return;
-  grid.coordinates = *x;
+  if (!id) return;
+  grid.coordinates = x.value_or(Vector3::Zero());  // a problem is told once
   if (*id < 1) {
     problems_->add(*card.line,
                    fmt::format("GRID {}. Expected a number from 1.", *id));
@@ -44,10 +48,12 @@ void GridTable::add_grid(const BulkCard& card) {
 
 void GridTable::add_default(const BulkCard& card) {
   const std::optional<int> system = card.integer(1, 0, *problems_);
+  const std::optional<int> motions = card.integer(kMotions, 0, *problems_);
   if (default_line_ != nullptr)
     problems_->add(*card.line, "a second GRDSET. Expected one at most.");
   default_line_ = card.line;
   default_system_ = system.value_or(0);
+  default_motions_ = motions.value_or(0);
 }
 
 void GridTable::add_system(const BulkCard& card) {
@@ -102,7 +108,29 @@ Vector3 GridTable::find_position(const Grid& grid) {
                   *grid.line);
 }
 
+Matrix3 GridTable::find_motion_axes(const Grid& grid) {
+  const int id = grid.motions.value_or(default_motions_);
+  const System* const system = id == 0 ? nullptr : solve(id, *grid.line);
+  if (system == nullptr) return Matrix3::Identity();
+  if (system->kind == Kind::rectangular) return system->R;
+  // Radial, tangential and along z, or radial and along rising theta and phi.
+  const Vector3 x =
+      system->R.transpose() * (find_position(grid) - system->origin);
+  const double across = std::hypot(x.x(), x.y());
+  if (!(across > 1e-9 * x.norm())) return system->R;
+  const Vector3 out(x.x() / across, x.y() / across, 0.0);
+  const Vector3 around = Vector3::UnitZ().cross(out);
+  Matrix3 axes;
+  if (system->kind == Kind::cylindrical) {
+    axes << out, around, Vector3::UnitZ();
+  } else {
+    axes << x.normalized(), around.cross(x.normalized()), around;
+  }
+  return system->R * axes;
+}
+
 std::optional<Matrix3> GridTable::find_axes(int system, const DeckLine& user) {
+  if (system == 0) return Matrix3(Matrix3::Identity());
   const System* const known = solve(system, user);
   if (known == nullptr) return std::nullopt;
   if (known->kind == Kind::rectangular) return known->R;

@@ -26,6 +26,7 @@ class GridTable {
     const DeckLine* line = nullptr;
     std::optional<int> system;  ///< none: that of GRDSET
     Vector3 coordinates;        ///< in its system [deck units, degrees]
+    std::optional<int> motions = std::nullopt;  ///< CD; none: of GRDSET
   };
   [[nodiscard]] const std::unordered_map<int, Grid>& grids() const {
     return grids_;
@@ -33,7 +34,10 @@ class GridTable {
   /// In the basic system [deck units]; a problem is added, and zero returned,
   /// if a system is missing, degenerate or depends on itself.
   Vector3 find_position(const Grid& grid);
-  /// Axes of a rectangular system as columns, in the basic one; none, and a
+  /// Axes of its displacements (CD) as columns, in the basic system; as with
+  /// find_position.
+  Matrix3 find_motion_axes(const Grid& grid);
+  /// Axes of a rectangular system (0: the basic one) as columns; none, and a
   /// problem, if it is missing or curvilinear. @param user for messages
   std::optional<Matrix3> find_axes(int system, const DeckLine& user);
   /// Axes of a material: of the basic system (0), or of a rectangular or
@@ -69,6 +73,7 @@ class GridTable {
   std::unordered_map<int, System> systems_;
   const DeckLine* default_line_ = nullptr;
   int default_system_ = 0;
+  int default_motions_ = 0;
 };
 
 }  // namespace limber::fem

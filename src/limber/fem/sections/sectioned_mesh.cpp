@@ -15,6 +15,7 @@
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
 #include "limber/fem/mesh/mesher.hpp"
+#include "limber/fem/mesh/volume_names.hpp"
 #include "limber/fem/sections/element_parts.hpp"
 
 namespace limber::fem {
@@ -181,9 +182,7 @@ class Sectioner {
   }
 
   void check_materials() {
-    std::set<std::string> used;
-    for (const auto& names : mesh_.volume_groups)
-      used.insert(names.begin(), names.end());
+    std::set<std::string> used = find_volume_names(mesh_);
     for (const BeamRegion& region : sections_.beams) used.insert(region.group);
     for (const ShellRegion& region : sections_.shells) {
       if (region.materials.empty()) used.insert(region.group);
@@ -346,9 +345,7 @@ class Sectioner {
 
   /// Those of volumes, and the nameless one if a volume needs it.
   [[nodiscard]] std::vector<MaterialAssignment> list_solid_materials() const {
-    std::set<std::string> volumes;
-    for (const auto& names : mesh_.volume_groups)
-      volumes.insert(names.begin(), names.end());
+    const std::set<std::string> volumes = find_volume_names(mesh_);
     std::vector<MaterialAssignment> materials;
     std::set<std::string> named;
     for (const MaterialAssignment& one : sections_.materials)

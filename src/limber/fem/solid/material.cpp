@@ -10,6 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/material/anisotropy.hpp"
 #include "limber/common/names.hpp"
+#include "limber/fem/mesh/volume_names.hpp"
 
 namespace limber::fem {
 namespace {
@@ -52,15 +53,12 @@ void check_values(const MaterialAssignment& assignment, Problems& problems) {
 void check_group(const Mesh& mesh, const MaterialAssignment& assignment,
                  Problems& problems) {
   if (assignment.group.empty()) return;
-  std::vector<std::string> known;
-  for (const auto& names : mesh.volume_groups)
-    for (const std::string& name : names)
-      if (std::count(known.begin(), known.end(), name) == 0)
-        known.push_back(name);
-  if (std::count(known.begin(), known.end(), assignment.group) == 0)
-    problems.push_back(
-        fmt::format("{}: {}", mesh.source,
-                    describe_unknown("volume group", assignment.group, known)));
+  const std::set<std::string> names = find_volume_names(mesh);
+  if (names.contains(assignment.group)) return;
+  const std::vector<std::string> known(names.begin(), names.end());
+  problems.push_back(
+      fmt::format("{}: {}", mesh.source,
+                  describe_unknown("volume group", assignment.group, known)));
 }
 
 std::string describe_region(const std::vector<std::string>& names) {
@@ -106,6 +104,12 @@ ElasticMaterial take_file_material(const Mesh& mesh,
   if (!stated.problem.empty()) {
     problems.push_back(fmt::format("{}: {}", mesh.source, stated.problem));
     return {};
+  }
+  if (!stated.material.anisotropy) {
+    const std::size_t before = problems.size();
+    check_isotropic(stated.material,
+                    fmt::format("{}: {}", mesh.source, stated.name), problems);
+    if (problems.size() > before) return {};
   }
   if (is_out_of_proportion(stated.material))
     problems.push_back(fmt::format(

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <set>
+#include <utility>
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
@@ -42,18 +42,44 @@ std::vector<int> AbaqusMesh::find_nodes(const std::string& of,
   return found;
 }
 
-std::vector<const InputElement*> AbaqusMesh::find_elements(
-    const std::string& of, const std::string& place) const {
-  std::vector<const InputElement*> found;
-  for (const long number : list_numbers(element_sets, of, "elements", place)) {
-    const auto at = elements.find(number);
-    if (at == elements.end())
+std::set<long> AbaqusMesh::list_elements(const std::string& of,
+                                         const std::string& place) const {
+  std::set<long> numbers = list_numbers(element_sets, of, "elements", place);
+  for (const long number : numbers)
+    if (!elements.contains(number))
       throw InputError(
           fmt::format("{}: element {} is missing. Expected it under *ELEMENT.",
                       place, number));
-    found.push_back(&at->second);
-  }
+  return numbers;
+}
+
+std::vector<const InputElement*> AbaqusMesh::find_elements(
+    const std::string& of, const std::string& place) const {
+  std::vector<const InputElement*> found;
+  for (const long number : list_elements(of, place))
+    found.push_back(&elements.at(number));
   return found;
+}
+
+Vector3 AbaqusMesh::find_default_axis(const InputElement& element) const {
+  constexpr double kAlong = 0.9999984769132877;  // cos 0.1 degrees
+  const auto at = [&](std::size_t i) {
+    return Vector3(x.col(element.nodes[i]));
+  };
+  const std::size_t last = element.nodes.size() - 1;
+  const Vector3 n = (at(2) - at(0)).cross(at(last) - at(1)).normalized();
+  return std::abs(n.x()) > kAlong ? Vector3::UnitZ() : Vector3::UnitX();
+}
+
+void AbaqusMesh::require_solids(const std::string& elset,
+                                const std::string& place) const {
+  for (const long number : element_sets.get(elset)) {
+    const auto found = elements.find(number);
+    if (found != elements.end() && found->second.solid == nullptr)
+      throw InputError(fmt::format(
+          "{}: element {} is a {}. Expected a section of its own kind.", place,
+          number, found->second.type));
+  }
 }
 
 }  // namespace limber::fem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,15 @@ struct AbaqusMesh {
   /// Of a set, or one by its number, in upper case; each once.
   [[nodiscard]] std::vector<int> find_nodes(const std::string& of,
                                             const std::string& place) const;
+  [[nodiscard]] std::set<long> list_elements(const std::string& of,
+                                             const std::string& place) const;
   [[nodiscard]] std::vector<const InputElement*> find_elements(
       const std::string& of, const std::string& place) const;
+  /// Axis 1 of a shell without an orientation, before its projection: x, or z
+  /// where x is within 0.1 degrees of the normal (Abaqus' convention).
+  [[nodiscard]] Vector3 find_default_axis(const InputElement& element) const;
+  /// @throws InputError for an element of the set that is no solid
+  void require_solids(const std::string& elset, const std::string& place) const;
 };
 
 }  // namespace limber::fem

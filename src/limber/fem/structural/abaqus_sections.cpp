@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -70,6 +71,11 @@ bool AbaqusSections::begin(const DeckPlace& at, const Keyword& keyword,
       orientations_[name_].problem = fmt::format(
           "{}: *ORIENTATION is curvilinear. Expected SYSTEM=RECTANGULAR.",
           at.text());
+    const std::string definition = keyword.get("DEFINITION");
+    if (!definition.empty() && !definition.starts_with("COORD"))
+      orientations_[name_].problem = fmt::format(
+          "{}: *ORIENTATION has DEFINITION={}. Expected COORDINATES.",
+          at.text(), echo(definition));
   } else if (name == "BEAM SECTION" || name == "SHELL SECTION") {
     begin_section(at, keyword, pose);
   } else if (name == "FAIL STRESS" && !materials_.contains(name_)) {
@@ -82,11 +88,22 @@ bool AbaqusSections::begin(const DeckPlace& at, const Keyword& keyword,
 
 void AbaqusSections::begin_section(const DeckPlace& at, const Keyword& keyword,
                                    const Pose& pose) {
-  for (const char* key :
-       {"OFFSET", "OFFSET1", "OFFSET2", "NODAL THICKNESS", "STACK DIRECTION"})
-    if (keyword.has(key))
+  constexpr std::array<std::string_view, 12> kKnown = {"ELSET",
+                                                       "MATERIAL",
+                                                       "ORIENTATION",
+                                                       "SECTION",
+                                                       "COMPOSITE",
+                                                       "CONTROLS",
+                                                       "SECTION INTEGRATION",
+                                                       "TEMPERATURE",
+                                                       "POISSON",
+                                                       "LUMPED",
+                                                       "LAYUP",
+                                                       "THICKNESS MODULUS"};
+  for (const auto& [key, value] : keyword.parameters)
+    if (!key.empty() && std::ranges::find(kKnown, key) == kKnown.end())
       at.fail(fmt::format("*{} has {}, which is not read. Expected none.",
-                          echo(keyword.name), key));
+                          echo(keyword.name), echo(key)));
   AbaqusSection section;
   section.place = at.text();
   section.pose = pose;
@@ -196,6 +213,10 @@ PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
                                       "Expected its constants.",
                                       echo(name)));
   } else if (m.kind.empty() || m.kind.starts_with("ISO")) {
+    if (!(e[1] > -1.0 && e[1] <= 0.5))
+      throw InputError(fmt::format(
+          "{}: its Poisson's ratio is {}. Expected one in (-1, 0.5].", m.place,
+          e[1]));
     ply = make_isotropic(e[0], e[1], 0.0);
   } else if (m.kind == "LAMINA") {
     ply = {e[0], e[1], e[2], e[3], e[4], e[5], 0.0, Vector6::Zero()};
@@ -211,7 +232,7 @@ PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
         ply.G_23 > 0.0 && ply.nu_12 * ply.nu_12 < ply.E_1 / ply.E_2))
     throw InputError(fmt::format(
         "{}: its elastic constants are out of range. Expected moduli > 0 and "
-        "nu12^2 < E1 / E2; of an isotropic material nu in (-1, 0.5].",
+        "nu12^2 < E1 / E2.",
         m.place));
   if (!m.density || !(*m.density > 0.0))
     throw InputError(
@@ -223,7 +244,8 @@ PlyMaterial AbaqusSections::find_material(const AbaqusSection& section,
 
 BeamProperty AbaqusSections::make_beam(const AbaqusSection& section) const {
   const PlyMaterial m = find_material(section, section.material);
-  if (m.E_1 != m.E_2)
+  const std::string& kind = materials_.at(section.material).kind;
+  if (!kind.empty() && !kind.starts_with("ISO"))
     fail_section(section, "its material is not isotropic. Expected E and nu.");
   const double nu = m.nu_12;
   const auto d = [&](std::size_t i) { return read_real(section, 0, i - 1); };
@@ -233,8 +255,12 @@ BeamProperty AbaqusSections::make_beam(const AbaqusSection& section) const {
     is_fine = d(1) > 0.0 && d(2) > 0.0;
     if (is_fine) property.section = make_rectangle(d(1), d(2), nu);
   } else if (section.shape == "CIRC") {
-    is_fine = d(1) > 0.0;
-    if (is_fine) property.section = make_tube(d(1), 0.0, nu);
+    // Abaqus has the radius, CalculiX the diameters along both axes.
+    const bool is_by_diameters = d(2) != 0.0;
+    is_fine = d(1) > 0.0 && (!is_by_diameters || d(2) == d(1));
+    if (is_fine)
+      property.section =
+          make_tube(is_by_diameters ? 0.5 * d(1) : d(1), 0.0, nu);
   } else if (section.shape == "PIPE") {
     is_fine = d(1) > d(2) && d(2) > 0.0;
     if (is_fine) property.section = make_tube(d(1), d(1) - d(2), nu);

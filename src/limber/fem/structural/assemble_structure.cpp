@@ -171,17 +171,25 @@ class StructureAssembler {
     places_.assign(structure_.tags.size(), -1);
     row_of_.assign(structure_.tags.size(), -1);
     std::vector<int> kept;
+    std::size_t leading = 0;
     for (int n = 0; n < static_cast<int>(used_.size()); ++n) {
       if (!used_[index(n)]) continue;
       places_[index(n)] = static_cast<int>(kept.size());
       kept.push_back(n);
       model.tags.push_back(structure_.tags[index(n)]);
       if (motions_.is_led(n)) continue;
+      ++leading;
       row_of_[index(n)] = static_cast<int>(model.rows.size());
       for (int c = 0; c < (rotates_[index(n)] ? 6 : 3); ++c)
         model.rows.push_back({places_[index(n)], c});
     }
     model.x = structure_.x(Eigen::all, kept);
+    if (leading == 1 && kept.size() > 1)
+      throw InputError(fmt::format(
+          "{}: its rigid elements lead all nodes from one, so that nothing can "
+          "deform. Expected an elastic part; a rigid body is a link with an "
+          "<inertial>.",
+          structure_.source));
   }
 
   /// Six unknowns of each node by the rows.

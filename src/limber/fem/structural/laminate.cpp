@@ -7,21 +7,26 @@
 namespace limber::fem {
 namespace {
 
-/// Plane stress in the shell's axes.
-Matrix3 calc_plane_stress(const Ply& ply) {
-  const PlyMaterial& m = ply.material;
+/// Of orthotropic constants, in the ply's axes.
+Matrix3 calc_own_plane_stress(const PlyMaterial& m) {
+  if (!m.plane_stress.isZero(0.0)) return m.plane_stress;
   const double d = 1.0 - m.nu_12 * m.nu_12 * m.E_2 / m.E_1;
   Matrix3 Q;
   Q << m.E_1 / d, m.nu_12 * m.E_2 / d, 0.0,  //
       m.nu_12 * m.E_2 / d, m.E_2 / d, 0.0,   //
       0.0, 0.0, m.G_12;
+  return Q;
+}
+
+/// Plane stress in the shell's axes.
+Matrix3 calc_plane_stress(const Ply& ply) {
   const double c = std::cos(ply.angle);
   const double s = std::sin(ply.angle);
   Matrix3 T;                 // strains in the ply's axes
   T << c * c, s * s, c * s,  //
       s * s, c * c, -c * s,  //
       -2.0 * c * s, 2.0 * c * s, c * c - s * s;
-  return T.transpose() * Q * T;
+  return T.transpose() * calc_own_plane_stress(ply.material) * T;
 }
 
 Matrix2 calc_shear_flexibility(const Ply& ply) {

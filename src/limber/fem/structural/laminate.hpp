@@ -23,6 +23,9 @@ struct PlyMaterial {
   /// Strengths Xt, Xc, Yt, Yc, S > 0 along 1, along 2 and in shear, and F12 of
   /// Tsai and Wu; zeros: not known.
   Vector6 strengths = Vector6::Zero();
+  /// Of [11, 22, 2 12], in place of the constants where these do not describe
+  /// it; zeros: they do.
+  Matrix3 plane_stress = Matrix3::Zero();
 };
 
 /// The same in all directions.

@@ -27,6 +27,14 @@ struct Stations {
   bool are_equal = true;
 };
 
+/// Stiffness against [gamma_13, gamma_23]. @param is_stated by the first two
+/// rows of a MAT2, which MID3 names
+Matrix2 make_shear(const PlyMaterial& m, bool is_stated) {
+  if (is_stated && !m.plane_stress.isZero(0.0))
+    return m.plane_stress.topLeftCorner<2, 2>();
+  return Eigen::Vector2d(m.G_13, m.G_23).asDiagonal();
+}
+
 }  // namespace
 
 bool NastranProperties::require(bool fine, const BulkCard& card,
@@ -42,12 +50,13 @@ double NastranProperties::real(const BulkCard& card, std::size_t field) {
 }
 
 bool NastranProperties::add(const BulkCard& card) {
-  if (card.name == "MAT1") {
-    add_isotropic(card);
-    return true;
-  }
-  if (card.name == "MAT8") {
-    add_ply_material(card);
+  if (materials_.add(card)) return true;
+  if (card.name == "BAROR" || card.name == "BEAMOR") {
+    if (!defaults_.emplace(card.name == "BAROR" ? "CBAR" : "CBEAM", card)
+             .second)
+      problems_->add(
+          *card.line,
+          fmt::format("a second {}. Expected one at most.", card.name));
     return true;
   }
   if (std::ranges::find(kProperties, card.name) == kProperties.end())
@@ -59,97 +68,26 @@ bool NastranProperties::add(const BulkCard& card) {
   return true;
 }
 
-void NastranProperties::add_isotropic(const BulkCard& card) {
-  const std::optional<int> id = card.integer(0, std::nullopt, *problems_);
-  Isotropic m{real(card, 1), real(card, 2), real(card, 3), real(card, 4)};
-  if (!id) return;
-  const bool has_E = !card.field(1).empty();
-  const bool has_G = !card.field(2).empty();
-  const bool has_nu = !card.field(3).empty();
-  if (!has_E && has_G && has_nu) m.E = 2.0 * (1.0 + m.nu) * m.G;
-  if (has_E && !has_G) m.G = 0.5 * m.E / (1.0 + m.nu);
-  if (has_E && has_G && !has_nu) m.nu = 0.5 * m.E / m.G - 1.0;
-  if (!require(m.E > 0.0 && m.G > 0.0 && m.nu > -1.0 && m.nu <= 0.5 &&
-                   m.density >= 0.0,
-               card,
-               "E, G, NU or RHO is out of range. Expected E and G > 0, NU in "
-               "(-1, 0.5], RHO >= 0."))
-    return;
-  require(isotropic_.emplace(*id, m).second && !plies_.contains(*id), card,
-          "is there twice. Expected a number of its own among materials.");
+BulkCard NastranProperties::fill_bar(BulkCard card) const {
+  const auto found = defaults_.find(card.name);
+  if (found == defaults_.end()) return card;
+  const auto take = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i <= last; ++i)
+      if (!card.field(i).empty()) return;
+    card.fields.resize(std::max(card.fields.size(), last + 1));
+    for (std::size_t i = first; i <= last; ++i)
+      card.fields[i] = found->second.field(i);
+  };
+  take(1, 1);  // PID
+  take(4, 6);  // X1 or G0, X2, X3
+  take(7, 7);  // OFFT
+  return card;
 }
 
-/// Xt, Xc, Yt, Yc, S, with Xc = Xt and Yc = Yt if blank, and F12.
-Vector6 NastranProperties::find_strengths(const BulkCard& card) {
-  Vector6 strengths = Vector6::Zero();
-  for (std::size_t i = 0; i < 5; ++i)
-    strengths[static_cast<Eigen::Index>(i)] = real(card, 11 + i);
-  if (card.field(12).empty()) strengths[1] = strengths[0];
-  if (card.field(14).empty()) strengths[3] = strengths[2];
-  if (strengths.isZero(0.0)) return strengths;
-  if (!require(card.field(18).empty() || real(card, 18) == 0.0, card,
-               "its strengths are strains (STRN). Expected stresses.") ||
-      !require(strengths.head<5>().minCoeff() > 0.0, card,
-               "some of Xt, Xc, Yt, Yc, S are missing or not > 0. Expected "
-               "all of them, or none."))
-    return Vector6::Zero();
-  strengths[5] = real(card, 17);
-  const double product = strengths.head<4>().prod();
-  if (!require(strengths[5] * strengths[5] * product < 1.0, card,
-               "F12 is out of range. Expected F12^2 < 1 / (Xt Xc Yt Yc)."))
-    return Vector6::Zero();
-  return strengths;
-}
-
-void NastranProperties::add_ply_material(const BulkCard& card) {
-  const std::optional<int> id = card.integer(0, std::nullopt, *problems_);
-  PlyMaterial m{real(card, 1), real(card, 2),       real(card, 3),
-                real(card, 4), real(card, 5),       real(card, 6),
-                real(card, 7), find_strengths(card)};
-  if (!id) return;
-  if (m.G_13 == 0.0 || m.G_23 == 0.0)
-    notices_.push_back(
-        fmt::format("MAT8 {}: G1,Z or G2,Z is blank, which is no transverse "
-                    "shear in Nastran; here it is G12",
-                    *id));
-  if (m.G_13 == 0.0) m.G_13 = m.G_12;
-  if (m.G_23 == 0.0) m.G_23 = m.G_12;
-  if (!require(m.E_1 > 0.0 && m.E_2 > 0.0 && m.G_12 > 0.0 && m.G_13 > 0.0 &&
-                   m.G_23 > 0.0 && m.density >= 0.0 &&
-                   m.nu_12 * m.nu_12 < m.E_1 / m.E_2,
-               card,
-               "E1, E2, NU12, G12, G1,Z, G2,Z or RHO is out of range. Expected "
-               "moduli > 0, NU12^2 < E1 / E2, RHO >= 0."))
-    return;
-  require(plies_.emplace(*id, m).second && !isotropic_.contains(*id), card,
-          "is there twice. Expected a number of its own among materials.");
-}
-
-std::optional<NastranProperties::Isotropic> NastranProperties::find_isotropic(
-    const BulkCard& card, std::size_t field) {
-  const std::optional<int> id = card.integer(field, std::nullopt, *problems_);
-  if (!id) return std::nullopt;
-  const auto found = isotropic_.find(*id);
-  if (!require(found != isotropic_.end(), card,
-               fmt::format("its material {} is no MAT1 of the deck. Expected "
-                           "one.",
-                           *id)))
-    return std::nullopt;
-  return found->second;
-}
-
-std::optional<PlyMaterial> NastranProperties::find_ply_material(
-    const BulkCard& card, int id) {
-  const auto ply = plies_.find(id);
-  if (ply != plies_.end()) return ply->second;
-  const auto found = isotropic_.find(id);
-  if (!require(found != isotropic_.end(), card,
-               fmt::format("its material {} is no MAT1 or MAT8 of the deck. "
-                           "Expected one.",
-                           id)))
-    return std::nullopt;
-  const Isotropic& m = found->second;
-  return PlyMaterial{m.E, m.E, m.nu, m.G, m.G, m.G, m.density, Vector6::Zero()};
+std::vector<std::string> NastranProperties::notices() const {
+  std::vector<std::string> all = materials_.notices();
+  all.insert(all.end(), notices_.begin(), notices_.end());
+  return all;
 }
 
 // ---- beams
@@ -157,9 +95,10 @@ std::optional<BeamProperty> NastranProperties::find_beam(int id,
                                                          const DeckLine& user) {
   const auto card = cards_.find(id);
   if (card == cards_.end() || is_shell(card->second.name)) {
-    problems_->add(user, fmt::format("its property {} is missing. Expected a "
-                                     "PBAR, PBARL, PBEAM or PBEAML.",
-                                     id));
+    if (missing_.insert(id).second)
+      problems_->add(user, fmt::format("its property {} is missing. Expected a "
+                                       "PBAR, PBARL, PBEAM or PBEAML.",
+                                       id));
     return std::nullopt;
   }
   const auto [entry, is_new] = beams_.try_emplace(id);
@@ -182,7 +121,7 @@ std::optional<BeamProperty> NastranProperties::find_beam(int id,
 }
 
 std::optional<BeamProperty> NastranProperties::make_bar(const BulkCard& card) {
-  const std::optional<Isotropic> m = find_isotropic(card, 1);
+  const auto m = materials_.find_isotropic(card, 1);
   if (!m) return std::nullopt;
   BeamSection s;
   s.area = real(card, 2);
@@ -200,7 +139,7 @@ std::optional<BeamProperty> NastranProperties::make_bar(const BulkCard& card) {
 
 std::optional<BeamProperty> NastranProperties::make_tapered(
     const BulkCard& card) {
-  const std::optional<Isotropic> m = find_isotropic(card, 1);
+  const auto m = materials_.find_isotropic(card, 1);
   if (!m) return std::nullopt;
   Stations stations;
   const auto repeats = [&](std::size_t from) {
@@ -250,7 +189,7 @@ std::optional<BeamProperty> NastranProperties::make_tapered(
 /// Dimensions: MSC Nastran Quick Reference Guide, PBARL. y is up, z across.
 std::optional<BeamProperty> NastranProperties::make_library(
     const BulkCard& card) {
-  const std::optional<Isotropic> m = find_isotropic(card, 1);
+  const auto m = materials_.find_isotropic(card, 1);
   if (!m) return std::nullopt;
   const std::string_view type = card.field(3);
   const auto d = [&](std::size_t i) { return real(card, 7 + i); };
@@ -309,9 +248,10 @@ std::optional<Laminate> NastranProperties::find_shell(int id,
                                                       const DeckLine& user) {
   const auto card = cards_.find(id);
   if (card == cards_.end() || !is_shell(card->second.name)) {
-    problems_->add(user, fmt::format("its property {} is missing. Expected a "
-                                     "PSHELL or PCOMP.",
-                                     id));
+    if (missing_.insert(id).second)
+      problems_->add(user, fmt::format("its property {} is missing. Expected a "
+                                       "PSHELL or PCOMP.",
+                                       id));
     return std::nullopt;
   }
   const auto [entry, is_new] = shells_.try_emplace(id);
@@ -332,13 +272,10 @@ std::optional<Laminate> NastranProperties::make_plate(const BulkCard& card) {
       !require(card.field(10).empty(), card,
                "MID4 is not read. Expected none; use PCOMP."))
     return std::nullopt;
-  const auto find = [&](std::size_t field) -> std::optional<PlyMaterial> {
-    const std::optional<int> id = card.integer(field, std::nullopt, *problems_);
-    return id ? find_ply_material(card, *id) : std::nullopt;
-  };
-  const std::optional<PlyMaterial> membrane = find(1);
-  const std::optional<PlyMaterial> bending = find(3);
-  const std::optional<PlyMaterial> shear = find(card.field(5).empty() ? 3 : 5);
+  const auto membrane = materials_.find_plate(card, 1, true);
+  const auto bending = materials_.find_plate(card, 3, false);
+  const auto shear =
+      materials_.find_plate(card, card.field(5).empty() ? 3 : 5, false);
   if (!membrane || !bending || !shear) return std::nullopt;
   const double ratio = card.field(4).empty() ? 1.0 : real(card, 4);
   const double factor = card.field(6).empty() ? 5.0 / 6.0 : real(card, 6);
@@ -351,8 +288,11 @@ std::optional<Laminate> NastranProperties::make_plate(const BulkCard& card) {
   laminate.D = ratio * plate.D;
   for (std::size_t i = 0; i < plate.points.size(); ++i)
     laminate.points[i].bending = plate.points[i].bending;
-  laminate.S = factor * 1.2 * make_laminate({{*shear, t, 0.0}}, -0.5 * t).S;
-  if (card.field(5).empty()) laminate.S *= kRigidShear;
+  if (card.field(5).empty()) {
+    laminate.S = kRigidShear * factor * t * make_shear(*shear, false);
+  } else {
+    laminate.S = factor * t * make_shear(*shear, true);
+  }
   laminate.mass += real(card, 7);
   return laminate;
 }
@@ -378,7 +318,7 @@ std::optional<Laminate> NastranProperties::make_stack(const BulkCard& card) {
         !require(t > 0.0, card,
                  "a ply has no thickness > 0. Expected MID, T and THETA."))
       return std::nullopt;
-    const std::optional<PlyMaterial> found = find_ply_material(card, *material);
+    const auto found = materials_.find_ply(card, *material);
     if (!found) return std::nullopt;
     plies.push_back({*found, t, kDegree * real(card, i + 2)});
   }

@@ -3,21 +3,27 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "limber/fem/nastran/bulk_card.hpp"
+#include "limber/fem/structural/nastran_materials.hpp"
 #include "limber/fem/structural/structure.hpp"
 
 namespace limber::fem {
 
-/// Materials and properties of beams and shells in a Nastran deck.
-/// Source: MSC Nastran Quick Reference Guide, MAT1, MAT8, PBAR, PBARL, PBEAM,
-/// PBEAML, PSHELL, PCOMP
+/// Properties of beams and shells in a Nastran deck, with their materials.
+/// Source: MSC Nastran Quick Reference Guide, PBAR, PBARL, PBEAM, PBEAML,
+/// PSHELL, PCOMP
 class NastranProperties {
  public:
-  explicit NastranProperties(DeckProblems& problems) : problems_(&problems) {}
+  explicit NastranProperties(DeckProblems& problems)
+      : problems_(&problems), materials_(problems) {}
 
   /// @returns false for a card of another kind
   bool add(const BulkCard& card);
+
+  /// A CBAR or CBEAM with what BAROR or BEAMOR give where it is blank.
+  [[nodiscard]] BulkCard fill_bar(BulkCard card) const;
 
   /// By a property's number; none, and a problem, if it is missing or wrong.
   /// @param user the element's line
@@ -25,24 +31,9 @@ class NastranProperties {
   std::optional<Laminate> find_shell(int id, const DeckLine& user);
 
   /// What is to be told once: "PBEAM 3: ..."
-  [[nodiscard]] const std::vector<std::string>& notices() const {
-    return notices_;
-  }
+  [[nodiscard]] std::vector<std::string> notices() const;
 
  private:
-  struct Isotropic {
-    double E = 0.0;
-    double G = 0.0;
-    double nu = 0.0;
-    double density = 0.0;
-  };
-
-  void add_isotropic(const BulkCard& card);
-  void add_ply_material(const BulkCard& card);
-  Vector6 find_strengths(const BulkCard& card);
-  std::optional<Isotropic> find_isotropic(const BulkCard& card,
-                                          std::size_t field);
-  std::optional<PlyMaterial> find_ply_material(const BulkCard& card, int id);
   std::optional<BeamProperty> make_bar(const BulkCard& card);
   std::optional<BeamProperty> make_tapered(const BulkCard& card);
   std::optional<BeamProperty> make_library(const BulkCard& card);
@@ -52,9 +43,10 @@ class NastranProperties {
   bool require(bool fine, const BulkCard& card, const std::string& what);
 
   DeckProblems* problems_;
-  std::map<int, Isotropic> isotropic_;
-  std::map<int, PlyMaterial> plies_;
-  std::map<int, BulkCard> cards_;  // of properties
+  NastranMaterials materials_;
+  std::map<int, BulkCard> cards_;                  // of properties
+  std::set<int> missing_;                          // told already
+  std::map<std::string_view, BulkCard> defaults_;  // by the name of bars
   std::map<int, std::optional<BeamProperty>> beams_;
   std::map<int, std::optional<Laminate>> shells_;
   std::vector<std::string> notices_;

@@ -51,6 +51,8 @@ class RigidReader {
           "components.");
     const std::optional<int> a = nodes_.find(card_, a_leads ? 1 : 2);
     const std::optional<int> b = nodes_.find(card_, a_leads ? 2 : 1);
+    if (a && b && *a == *b)
+      return refuse("it has one node twice. Expected two nodes.");
     if (a && b) structure_.spiders.push_back({*a, {*b}, place_});
   }
 
@@ -68,7 +70,10 @@ class RigidReader {
       return refuse(
           "CM is not 123456. Expected a node that leads in all six components, "
           "or in 123 nodes of solids alone.");
-    if (spider.nodes.empty()) return refuse("it has no nodes. Expected some.");
+    if (spider.nodes.empty() && card_.field(3).empty())
+      return refuse("it has no nodes. Expected some.");
+    if (std::ranges::count(spider.nodes, *leader) > 0)
+      return refuse("its node GN leads itself. Expected other nodes.");
     structure_.spiders.push_back(std::move(spider));
   }
 
@@ -129,6 +134,7 @@ std::optional<int> NastranNodes::find(const BulkCard& card,
   if (!id) return std::nullopt;
   const auto found = nodes_.find(*id);
   if (found != nodes_.end()) return found->second;
+  if (!missing_.insert(*id).second) return std::nullopt;  // told already
   problems_->add(*card.line,
                  fmt::format("{} {} has node {}, which is missing. Expected "
                              "its GRID.",

@@ -17,7 +17,8 @@ class NastranNodes {
   explicit NastranNodes(DeckProblems& problems) : problems_(&problems) {}
   void add(int id, int node) { nodes_[id] = node; }
 
-  /// The node in a field; none, and a problem, if it is missing.
+  /// The node in a field; none, and at its first use a problem, if it is
+  /// missing.
   [[nodiscard]] std::optional<int> find(const BulkCard& card,
                                         std::size_t field) const;
   /// Nodes from a field on, up to a real number or a word: numbers, and "3 THRU
@@ -27,7 +28,8 @@ class NastranNodes {
 
  private:
   DeckProblems* problems_;
-  std::map<int, int> nodes_;  // by number
+  std::map<int, int> nodes_;       // by number
+  mutable std::set<int> missing_;  // told already
 };
 
 /// Adds an RBE2, an RBAR or an RBE3; a problem where it is not one that is

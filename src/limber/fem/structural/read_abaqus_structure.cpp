@@ -12,7 +12,9 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/fem/structural/abaqus_keywords.hpp"
+#include "limber/fem/abaqus/deck_attachments.hpp"
+#include "limber/fem/abaqus/deck_counts.hpp"
+#include "limber/fem/abaqus/keyword_effect.hpp"
 #include "limber/fem/structural/abaqus_sections.hpp"
 #include "limber/fem/structural/abaqus_ties.hpp"
 #include "limber/fem/text/flat_deck.hpp"
@@ -36,9 +38,16 @@ std::size_t count_type_nodes(std::string_view type) {
   return 0;
 }
 
+constexpr const char* kReadKeywords =
+    "Expected *NODE, *ELEMENT of B31, S3, S4 (or S4R), solids (C3D4, C3D10, "
+    "C3D8, C3D20, C3D6, C3D15, C3D5) and MASS, sections, *MASS, *RIGID BODY, "
+    "*COUPLING and *MPC";
+
 class StructureDeckReader {
  public:
-  explicit StructureDeckReader(const std::filesystem::path& file) {
+  StructureDeckReader(const std::filesystem::path& file,
+                      const std::set<std::string>& ignored)
+      : ignored_(ignored) {
     structure_.source = file.string();
     structure_.files.push_back(file);
   }
@@ -58,6 +67,7 @@ class StructureDeckReader {
       throw InputError(fmt::format(
           "{}: the last element is not complete. Expected more nodes.",
           structure_.source));
+    refuse_in_deck(refused_, kReadKeywords);
     number_nodes();
     for (const AbaqusSection& section : sections_.sections()) assign(section);
     add_masses();
@@ -81,17 +91,18 @@ class StructureDeckReader {
       at.fail("the element before it is not complete. Expected more nodes.");
     keyword_ = keyword;
     const std::string& name = keyword.name;
-    if (loses_motion(name))
-      at.fail(
-          fmt::format("*{} is not read among beams and shells and would be "
-                      "lost. Expected *NODE, *ELEMENT, sections, *MASS, "
-                      "*RIGID BODY, *COUPLING and *MPC.",
-                      name));
     for (const char* key : {"NSET", "ELSET"})
       if (keyword.has(key))
         spelling_.try_emplace(keyword.get(key), keyword_.spelled[key]);
+    if ((name == "NSET" || name == "ELSET") && keyword.get(name).empty())
+      at.fail(fmt::format("*{} has no name. Expected {}=NAME.", name, name));
+    if (keyword.has("NSET"))
+      places_.try_emplace(keyword.get("NSET"), at.text());
+    is_in_step_ = name == "STEP" || (is_in_step_ && name != "END STEP");
     kind_ = LineKind::none;
-    if (ties_.begin(at, keyword)) {
+    if (is_ignored(name)) {
+      count_in_deck(at, "*" + name, left_out_);
+    } else if (ties_.begin(at, keyword)) {
       kind_ = LineKind::tie;
     } else if (sections_.begin(at, keyword, pose)) {
       kind_ = LineKind::section;
@@ -100,20 +111,7 @@ class StructureDeckReader {
         at.fail("*NODE in other coordinates. Expected global ones.");
       kind_ = LineKind::node;
     } else if (name == "ELEMENT") {
-      kind_ = LineKind::element;
-      solid_ = find_solid_type(keyword.get("TYPE"));
-      structure_.has_solids |= solid_ != nullptr;
-      if (solid_ == nullptr && count_type_nodes(keyword.get("TYPE")) == 0)
-        at.fail(fmt::format(
-            "elements {} are not read among beams and shells. Expected B31, "
-            "S3, S4 (or S4R), solids (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, "
-            "C3D5) and MASS.",
-            echo(keyword.get("TYPE"))));
-      if (solid_ == nullptr)
-        beside_.insert(keyword.get("TYPE"));
-      else if (keyword.get("TYPE") != solid_->name)
-        integrated_.insert(
-            fmt::format("{} as {}", keyword.get("TYPE"), solid_->name));
+      begin_elements(at);
     } else if (name == "NSET") {
       kind_ = LineKind::nset;
       if (keyword.has("ELSET"))
@@ -121,13 +119,54 @@ class StructureDeckReader {
     } else if (name == "ELSET") {
       kind_ = LineKind::elset;
     } else if (name == "MASS") {
-      kind_ = LineKind::mass;
-    } else if (!is_of_analysis(name)) {
-      ++unused_[name];
+      begin_mass(at);
+    } else {
+      begin_other(at);
     }
-    return kind_ == LineKind::node || kind_ == LineKind::element ||
-           kind_ == LineKind::nset || kind_ == LineKind::elset ||
-           name == "INCLUDE" || name == "SURFACE";
+    return name == "NODE" || name == "ELEMENT" || name == "NSET" ||
+           name == "ELSET" || name == "INCLUDE" || name == "SURFACE";
+  }
+
+  /// *KINEMATIC and *DISTRIBUTING go with the *COUPLING before them.
+  [[nodiscard]] bool is_ignored(const std::string& name) const {
+    return ignored_.contains(name) ||
+           ((name == "KINEMATIC" || name == "DISTRIBUTING") &&
+            ignored_.contains("COUPLING"));
+  }
+
+  void begin_elements(const DeckPlace& at) {
+    const std::string type = keyword_.get("TYPE");
+    solid_ = find_solid_type(type);
+    if (ignored_.contains(type))
+      return count_in_deck(at, "elements " + type, left_out_);
+    if (solid_ == nullptr && count_type_nodes(type) == 0)
+      return count_in_deck(at, "elements " + type, refused_);
+    kind_ = LineKind::element;
+    structure_.has_solids |= solid_ != nullptr;
+    if (solid_ == nullptr)
+      beside_.insert(type);
+    else if (type != solid_->name)
+      integrated_.insert(fmt::format("{} as {}", type, solid_->name));
+  }
+
+  void begin_mass(const DeckPlace& at) {
+    kind_ = LineKind::mass;
+    if (keyword_.has("TYPE") && !keyword_.get("TYPE").starts_with("ISO"))
+      at.fail("*MASS has another TYPE. Expected the same mass along all axes.");
+    masses_.push_back({at.text(), keyword_.get("ELSET"), -1.0});
+  }
+
+  void begin_other(const DeckPlace& at) {
+    const std::string what = "*" + keyword_.name;
+    const KeywordEffect effect = find_keyword_effect(keyword_.name);
+    if (effect == KeywordEffect::outside || effect == KeywordEffect::law) {
+      count_in_deck(at, what, unused_);
+    } else if (effect == KeywordEffect::none) {
+      if (keyword_.name.ends_with("SECTION"))
+        solid_sections_.emplace_back(keyword_.get("ELSET"), at.text());
+    } else if (effect != KeywordEffect::unknown || !is_in_step_) {
+      count_in_deck(at, what, refused_);
+    }
   }
 
   void add_data(const DeckPlace& at, std::string_view line) {
@@ -192,9 +231,10 @@ class StructureDeckReader {
   }
 
   void add_mass(const DeckPlace& at, std::string_view line) {
-    const double mass = read_deck_real(at, split_commas(line)[0]);
-    if (!(mass >= 0.0)) at.fail("*MASS is below 0. Expected a mass.");
-    masses_[keyword_.get("ELSET")] = mass;
+    DeckMass& point = masses_.back();
+    if (point.mass >= 0.0) at.fail("*MASS has a second line. Expected one.");
+    point.mass = read_deck_real(at, split_commas(line)[0]);
+    if (!(point.mass >= 0.0)) at.fail("*MASS is below 0. Expected a mass.");
   }
 
   void number_nodes() {
@@ -212,21 +252,12 @@ class StructureDeckReader {
   }
 
   void assign(const AbaqusSection& section) {
-    const std::vector<long> numbers = mesh_.element_sets.get(section.elset);
-    if (numbers.empty())
-      throw InputError(fmt::format(
-          "{}: its set of elements {} is missing or empty. Expected one.",
-          section.place, echo(section.elset)));
+    const std::set<long> numbers =
+        mesh_.list_elements(section.elset, section.place);
     const int property = make_property(section);
     const std::optional<Vector3> axis = sections_.find_shell_axis(section);
     for (const long number : numbers) {
-      const auto found = mesh_.elements.find(number);
-      if (found == mesh_.elements.end())
-        throw InputError(fmt::format(
-            "{}: its set {} has element {}, which is missing. Expected it "
-            "under *ELEMENT.",
-            section.place, section.elset, number));
-      const InputElement& element = found->second;
+      const InputElement& element = mesh_.elements.at(number);
       const bool is_beam = element.type.starts_with('B');
       if (element.type == "MASS" || element.solid != nullptr ||
           is_beam != section.is_beam)
@@ -248,7 +279,7 @@ class StructureDeckReader {
         StructureShell shell;
         shell.nodes = element.nodes;
         shell.laminate = property;
-        shell.axis = axis.value_or(find_default_axis(element));
+        shell.axis = axis.value_or(mesh_.find_default_axis(element));
         shell.place = element.place;
         structure_.shells.push_back(std::move(shell));
       }
@@ -264,33 +295,31 @@ class StructureDeckReader {
     return static_cast<int>(structure_.laminates.size()) - 1;
   }
 
-  /// x, or z where x is within 0.1 degrees of the normal (Abaqus' convention).
-  [[nodiscard]] Vector3 find_default_axis(const InputElement& element) const {
-    constexpr double kAlong = 0.9999984769132877;  // cos 0.1 degrees
-    const auto at = [&](std::size_t i) {
-      return Vector3(structure_.x.col(element.nodes[i]));
-    };
-    const std::size_t last = element.nodes.size() - 1;
-    const Vector3 n = (at(2) - at(0)).cross(at(last) - at(1)).normalized();
-    return std::abs(n.x()) > kAlong ? Vector3::UnitZ() : Vector3::UnitX();
-  }
-
   void add_masses() {
-    for (const auto& [elset, mass] : masses_)
-      for (const long number : mesh_.element_sets.get(elset)) {
-        const auto found = mesh_.elements.find(number);
-        if (found == mesh_.elements.end() || found->second.type != "MASS")
-          continue;
-        described_.insert(number);
+    if (ignored_.contains("MASS")) return;
+    for (const DeckMass& point : masses_) {
+      if (!(point.mass >= 0.0))
+        throw InputError(
+            fmt::format("{}: *MASS has no mass. Expected one.", point.place));
+      for (const long number : mesh_.list_elements(point.elset, point.place)) {
+        const InputElement& element = mesh_.elements.at(number);
+        if (element.type != "MASS" || !described_.insert(number).second)
+          throw InputError(fmt::format(
+              "{}: element {} of *MASS is a {}{}. Expected a MASS, once.",
+              point.place, number, element.type,
+              element.type == "MASS" ? " that has a mass already" : ""));
         StructureMass body;
-        body.node = found->second.nodes[0];
-        body.mass = mass;
-        body.place = found->second.place;
+        body.node = element.nodes[0];
+        body.mass = point.mass;
+        body.place = element.place;
         structure_.masses.push_back(std::move(body));
       }
+    }
   }
 
   void check_described() const {
+    for (const auto& [elset, place] : solid_sections_)
+      mesh_.require_solids(elset, place);
     for (const auto& [number, element] : mesh_.elements)
       if (element.solid == nullptr && !described_.contains(number))
         throw InputError(fmt::format(
@@ -322,7 +351,7 @@ class StructureDeckReader {
     for (const auto& [name, numbers] : mesh_.node_sets.all()) {
       std::set<int> nodes;
       for (const long number : numbers)
-        nodes.insert(mesh_.find_node(number, structure_.source));
+        nodes.insert(mesh_.find_node(number, places_.at(name)));
       add_set(name, nodes);
     }
     for (const auto& [name, numbers] : mesh_.element_sets.all()) {
@@ -353,13 +382,14 @@ class StructureDeckReader {
       structure_.notices.push_back(
           fmt::format("{}: read with the integration of this program: {}.",
                       structure_.source, fmt::join(integrated_, ", ")));
-    std::vector<std::string> unused;
-    for (const auto& [name, count] : unused_)
-      unused.push_back(fmt::format("{} *{}", count, name));
-    if (!unused.empty())
-      structure_.notices.push_back(fmt::format(
-          "{}: not used: {}. Supports and loads are those of the scene.",
-          structure_.source, fmt::join(unused, ", ")));
+    const auto tell = [this](const DeckCounts& counts, const char* why) {
+      for (std::string& note : list_deck_counts(counts, structure_.source, why))
+        structure_.notices.push_back(std::move(note));
+    };
+    tell(left_out_, "left out as you ask, so that the body lacks them");
+    tell(unused_,
+         "not used, as supports and loads are those of the scene and materials "
+         "are linear elastic");
   }
 
   Structure structure_;
@@ -374,14 +404,21 @@ class StructureDeckReader {
   std::set<std::string> integrated_;  // solids with another integration
   std::vector<long> element_;         // numbers of one that goes on
   std::set<long> described_;
-  std::map<std::string, double> masses_;  // by set of elements
+  std::vector<std::pair<std::string, std::string>> solid_sections_;  // places
+  std::vector<DeckMass> masses_;
   std::map<std::string, std::string> spelling_;
-  std::map<std::string, int> unused_;
+  std::map<std::string, std::string> places_;  // of sets of nodes
+  DeckCounts unused_;
+  DeckCounts refused_;
+  DeckCounts left_out_;
+  const std::set<std::string>& ignored_;
+  bool is_in_step_ = false;
 };
 
 }  // namespace
 
-bool is_abaqus_structure(const std::filesystem::path& file, bool with_solids) {
+bool is_abaqus_structure(const std::filesystem::path& file,
+                         const std::set<std::string>& ignored) {
   bool has_structural = false;
   bool has_section = false;
   bool has_solid = false;
@@ -389,7 +426,8 @@ bool is_abaqus_structure(const std::filesystem::path& file, bool with_solids) {
   read_keyword_deck(file, {[&](const TextScanner&, const Keyword& keyword) {
                              const std::string& name = keyword.name;
                              const std::string type = keyword.get("TYPE");
-                             if (name == "ELEMENT") {
+                             if (ignored.contains(name)) return false;
+                             if (name == "ELEMENT" && !ignored.contains(type)) {
                                has_solid |= find_solid_type(type) != nullptr;
                                has_structural |= count_type_nodes(type) > 1;
                              }
@@ -400,12 +438,12 @@ bool is_abaqus_structure(const std::filesystem::path& file, bool with_solids) {
                              return name == "INCLUDE";
                            },
                            [](const TextScanner&, std::string_view) {}});
-  if (has_solid && !with_solids) return false;
   return (has_structural && has_section) || (has_solid && has_tie);
 }
 
-Structure read_abaqus_structure(const std::filesystem::path& file) {
-  return StructureDeckReader(file).read();
+Structure read_abaqus_structure(const std::filesystem::path& file,
+                                const std::set<std::string>& ignored) {
+  return StructureDeckReader(file, ignored).read();
 }
 
 }  // namespace limber::fem

@@ -2,16 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "limber/fem/structural/structure.hpp"
 
 namespace limber::fem {
 
-/// Whether an input file has beams or shells that a section describes.
-/// @param with_solids whether it may have solids, too, also alone with rigid
-/// bodies, couplings or multi-point constraints
+/// Whether an input file has beams or shells that a section describes, or
+/// solids with rigid bodies, couplings or multi-point constraints.
+/// @param ignored names of keywords and types of elements that are left out,
+/// in upper case
 [[nodiscard]] bool is_abaqus_structure(const std::filesystem::path& file,
-                                       bool with_solids);
+                                       const std::set<std::string>& ignored);
 
 /// Reads B31, S3, S4 (also with reduced integration) and MASS with their
 /// sections and materials, *RIGID BODY, *COUPLING, *MPC, *SURFACE, *NSET,
@@ -20,6 +23,6 @@ namespace limber::fem {
 /// (structure_solids.hpp). Sets: those of nodes, and nodes of sets of elements.
 /// @throws InputError with file and line, also for what would be lost
 [[nodiscard]] Structure read_abaqus_structure(
-    const std::filesystem::path& file);
+    const std::filesystem::path& file, const std::set<std::string>& ignored);
 
 }  // namespace limber::fem

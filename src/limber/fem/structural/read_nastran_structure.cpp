@@ -15,6 +15,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/fem/nastran/card_counts.hpp"
 #include "limber/fem/nastran/card_effect.hpp"
 #include "limber/fem/nastran/grid_table.hpp"
 #include "limber/fem/nastran/solid_card.hpp"
@@ -44,6 +45,10 @@ bool is_whole(std::string_view field) {  // an integer, no real number
 
 constexpr std::string_view kAllComponents = "123456";
 
+constexpr std::string_view kReadCards =
+    "Expected CBAR, CBEAM, CQUAD4, CTRIA3, solids, CONM2, RBE2, RBE3 and RBAR; "
+    "a body with others comes by its matrices";
+
 /// Of the structure, as solids alone are read by read_bulk_data.
 constexpr std::array<std::string_view, 12> kBesideSolids = {
     "CBAR",  "CBEAM", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR",
@@ -51,12 +56,14 @@ constexpr std::array<std::string_view, 12> kBesideSolids = {
 
 class StructureReader {
  public:
-  explicit StructureReader(const std::filesystem::path& file)
+  StructureReader(const std::filesystem::path& file,
+                  const std::set<std::string>& ignored)
       : deck_(read_deck(file)),
         problems_(deck_),
         grids_(problems_),
         properties_(problems_),
-        nodes_(problems_) {
+        nodes_(problems_),
+        ignored_(ignored) {
     structure_.source = file.string();
   }
 
@@ -64,6 +71,11 @@ class StructureReader {
     CardReader reader(deck_, problems_);
     BulkCard card;
     while (reader.next(card)) add(card);
+    const CardCounts left_out = extract_ignored(ignored_, refused_);
+    refuse_cards(refused_, "is not read among beams and shells", kReadCards,
+                 problems_);
+    for (std::string& note : note_left_out(deck_, left_out))
+      structure_.notices.push_back(std::move(note));
     number_nodes();
     for (const BulkCard& one : solids_) add_solid(one);
     for (const BulkCard& one : beams_) add_beam(one);
@@ -81,7 +93,9 @@ class StructureReader {
 
  private:
   void add(const BulkCard& card) {
-    if (is_bar(card.name)) {
+    if (ignored_.contains(std::string(card.name))) {
+      count_card(card, refused_);
+    } else if (is_bar(card.name)) {
       beams_.push_back(card);
     } else if (count_shell_nodes(card.name) > 0) {
       shells_.push_back(card);
@@ -98,7 +112,7 @@ class StructureReader {
       grids_.add_system(card);
     } else if (card.name == "SPC" || card.name == "SPC1") {
       supports_.push_back(card);
-      ++unused_[std::string(card.name)];
+      count_card(card, unused_);
     } else if (card.name == "PARAM") {
       add_parameter(card);
     } else if (!properties_.add(card)) {
@@ -107,14 +121,9 @@ class StructureReader {
   }
 
   void add_point(const BulkCard& card) {
-    constexpr std::size_t kDisplacements = 5;  // CD
-    const std::optional<int> system =
-        card.integer(kDisplacements, 0, problems_);
-    if (system && *system > 0)
-      problems_.add(*card.line,
-                    fmt::format("{} {} has displacements in coordinate system "
-                                "{} (CD). Expected the basic one, 0.",
-                                card.name, echo(card.field(0)), *system));
+    constexpr std::size_t kPermanent = 6;  // PS
+    if (!card.field(kPermanent).empty() && card.field(kPermanent) != "0")
+      count_card(card, unused_, " with supports (PS)");
     if (card.name == "GRID") {
       grids_.add_grid(card);
     } else {
@@ -131,16 +140,11 @@ class StructureReader {
 
   void add_other(const BulkCard& card) {
     const CardEffect effect = find_card_effect(card.name);
-    if (effect == CardEffect::outside) ++unused_[std::string(card.name)];
-    if (effect == CardEffect::on_body &&
-        refused_.insert(std::string(card.name)).second)
-      problems_.add(
-          *card.line,
-          fmt::format("{} is not read among beams and shells and would be "
-                      "lost. Expected CBAR, CBEAM, CQUAD4, CTRIA3, solids, "
-                      "CONM2, RBE2, RBE3 and RBAR; a body with others comes by "
-                      "its matrices.",
-                      card.name));
+    if (effect == CardEffect::outside) {
+      count_card(card, unused_);
+    } else if (effect != CardEffect::none) {
+      count_card(card, refused_);
+    }
   }
 
   void number_nodes() {
@@ -151,6 +155,7 @@ class StructureReader {
     for (const int id : ids) {
       const auto n = static_cast<int>(structure_.tags.size());
       structure_.x.col(n) = grids_.find_position(grids_.grids().at(id));
+      axes_.push_back(grids_.find_motion_axes(grids_.grids().at(id)));
       structure_.tags.push_back(static_cast<std::size_t>(id));
       nodes_.add(id, n);
     }
@@ -213,7 +218,8 @@ class StructureReader {
           solid_nodes_.insert(*node);
   }
 
-  void add_beam(const BulkCard& card) {
+  void add_beam(const BulkCard& given) {
+    const BulkCard card = properties_.fill_bar(given);
     if (!take_number(card)) return;
     const std::optional<int> number = card.integer(0, std::nullopt, problems_);
     const std::optional<int> id =
@@ -236,20 +242,25 @@ class StructureReader {
         take_property(*id, beam_of_, structure_.beam_properties,
                       [&] { return properties_.find_beam(*id, *card.line); });
     if (!up || !property) return;
-    structure_.beams.push_back({{*a, *b},
-                                *property,
-                                *up,
-                                {*from_a, *from_b},
-                                deck_.place_of(*card.line),
-                                static_cast<std::size_t>(*number)});
+    structure_.beams.push_back(
+        {{*a, *b},
+         *property,
+         *up,
+         {axes_[index(*a)] * *from_a, axes_[index(*b)] * *from_b},
+         deck_.place_of(*card.line),
+         static_cast<std::size_t>(*number)});
     add_to_set(std::to_string(*id), {*a, *b});
   }
 
-  /// X1, X2, X3, or towards the point G0.
+  /// X1, X2, X3 in the axes of the first node, or towards the point G0.
   std::optional<Vector3> find_up(const BulkCard& card, int a) {
     const bool is_point = is_whole(card.field(4)) && card.field(5).empty() &&
                           card.field(6).empty();
-    if (!is_point) return find_vector(card, 4);
+    if (!is_point) {
+      const std::optional<Vector3> v = find_vector(card, 4);
+      if (!v) return std::nullopt;
+      return Vector3(axes_[index(a)] * *v);
+    }
     const std::optional<int> point = nodes_.find(card, 4);
     if (!point) return std::nullopt;
     return Vector3(structure_.x.col(*point) - structure_.x.col(a));
@@ -290,10 +301,6 @@ class StructureReader {
     const std::optional<int> system =
         card.integer(field, std::nullopt, problems_);
     if (!system) return false;
-    if (*system == 0) {
-      shell.axis = Vector3::UnitX();
-      return true;
-    }
     const std::optional<Matrix3> axes = grids_.find_axes(*system, *card.line);
     if (axes) shell.axis = axes->col(0);
     return axes.has_value();
@@ -309,18 +316,22 @@ class StructureReader {
     for (int i = 0; i < 6; ++i)
       I[i] = card.real(8 + index(i), problems_).value_or(0.0);
     if (!node || !system || !mass || !offset) return;
-    if (*system != 0 || !(*mass >= 0.0)) {
-      problems_.add(
-          *card.line,
-          fmt::format("CONM2 {}: CID is {} and M {}. Expected axes of "
-                      "the basic system, 0, and M >= 0.",
-                      echo(card.field(0)), *system, *mass));
-      return;
-    }
-    StructureMass body{*node, *mass, *offset, Matrix3::Zero(),
-                       deck_.place_of(*card.line)};
-    body.inertia << I[0], -I[1], -I[3], -I[1], I[2], -I[4], -I[3], -I[4], I[5];
-    structure_.masses.push_back(std::move(body));
+    if (!(*mass >= 0.0))
+      return problems_.add(*card.line,
+                           fmt::format("CONM2 {}: M is {}. Expected M >= 0.",
+                                       echo(card.field(0)), *mass));
+    Matrix3 inertia;
+    inertia << I[0], -I[1], -I[3], -I[1], I[2], -I[4], -I[3], -I[4], I[5];
+    const std::optional<Matrix3> axes =
+        grids_.find_axes(std::max(*system, 0), *card.line);
+    if (!axes) return;
+    // CID -1: the centre of mass itself, in the basic system.
+    const Vector3 from_node = *system < 0
+                                  ? Vector3(*offset - structure_.x.col(*node))
+                                  : Vector3(*axes * *offset);
+    structure_.masses.push_back({*node, *mass, from_node,
+                                 *axes * inertia * axes->transpose(),
+                                 deck_.place_of(*card.line)});
   }
 
   void add_rigid(const BulkCard& card) {
@@ -375,14 +386,11 @@ class StructureReader {
     structure_.beside_solids = {kBesideSolids.begin(), kBesideSolids.end()};
     for (const std::filesystem::path& file : deck_.files)
       structure_.files.push_back(file);
-    std::vector<std::string> unused;
-    for (const auto& [name, count] : unused_)
-      unused.push_back(fmt::format("{} {}", count, name));
-    if (!unused.empty())
+    if (!unused_.empty())
       structure_.notices.push_back(fmt::format(
           "{}: not used: {}. Supports and loads are those of the scene; nodes "
           "that SPC and SPC1 hold in all components are the sets spc:SID.",
-          structure_.source, fmt::join(unused, ", ")));
+          structure_.source, list_counts(deck_, unused_)));
     for (const std::string& notice : properties_.notices())
       structure_.notices.push_back(
           fmt::format("{}: {}.", structure_.source, notice));
@@ -405,13 +413,16 @@ class StructureReader {
   std::unordered_set<int> elements_;
   std::map<int, int> beam_of_, shell_of_;  // by number of a property
   std::map<std::string, std::set<int>> sets_;
-  std::map<std::string, int> unused_;
-  std::set<std::string> refused_;
+  CardCounts unused_;
+  CardCounts refused_;
+  std::vector<Matrix3> axes_;  // of displacements (CD), beside the nodes
+  const std::set<std::string>& ignored_;
 };
 
 }  // namespace
 
-bool is_nastran_structure(const std::filesystem::path& file, bool with_solids) {
+bool is_nastran_structure(const std::filesystem::path& file,
+                          const std::set<std::string>& ignored) {
   const Deck deck = read_deck(file);
   DeckProblems problems(deck);
   CardReader reader(deck, problems);
@@ -419,15 +430,16 @@ bool is_nastran_structure(const std::filesystem::path& file, bool with_solids) {
   bool has_elements = false;
   bool has_property = false;
   while (reader.next(card)) {
-    if (is_solid(card.name) && !with_solids) return false;
+    if (ignored.contains(std::string(card.name))) continue;
     has_elements |= is_bar(card.name) || count_shell_nodes(card.name) > 0;
     has_property |= is_property(card.name) && card.name != "PSOLID";
   }
   return has_elements && has_property;
 }
 
-Structure read_nastran_structure(const std::filesystem::path& file) {
-  return StructureReader(file).read();
+Structure read_nastran_structure(const std::filesystem::path& file,
+                                 const std::set<std::string>& ignored) {
+  return StructureReader(file, ignored).read();
 }
 
 }  // namespace limber::fem

@@ -12,13 +12,14 @@
 
 namespace limber::fem {
 
-StructureSolids read_structure_solids(const Structure& structure, double unit) {
+StructureSolids read_structure_solids(const Structure& structure, double unit,
+                                      double force) {
   StructureSolids solids;
   solids.unit = unit;
   if (!structure.has_solids) return solids;
   MeshOptions options;
   options.unit = unit;
-  options.force = 1.0;
+  options.force = force;
   options.ignored = structure.beside_solids;
   solids.mesh = run_mesher(find_mesher(), structure.files.at(0), options).mesh;
   const std::set<std::size_t> known(structure.tags.begin(),

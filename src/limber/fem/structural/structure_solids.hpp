@@ -16,9 +16,10 @@ struct StructureSolids {
 };
 
 /// By the mesher, as those of a deck of solids alone, which may be in several
-/// parts here. Forces are in N.
+/// parts here. @param force newtons per unit of force of the deck
 /// @throws InputError as read_mesh and assign_materials
 [[nodiscard]] StructureSolids read_structure_solids(const Structure& structure,
-                                                    double unit);
+                                                    double unit,
+                                                    double force = 1.0);
 
 }  // namespace limber::fem

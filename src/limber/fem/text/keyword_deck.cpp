@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/text/keyword_deck.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
+#include "limber/common/echo.hpp"
 #include "limber/common/upper_case.hpp"
 
 namespace limber::fem {
@@ -50,12 +53,20 @@ void read_file(const std::filesystem::path& file, const DeckReading& reading,
     while (whole.ends_with(',') && scanner.next_text())
       whole += trim_blanks(scanner.line());
     const Keyword keyword = parse_keyword(whole);
+    if (keyword.name == "INCLUDE" && keyword.get("INPUT").empty())
+      scanner.fail("*INCLUDE without a file. Expected INPUT=file.");
     if (!reading.begin(scanner, keyword) || !keyword.has("INPUT")) continue;
     if (depth == kMostNestedInputs || ++files > kMostInputs)
       scanner.fail(
           "files include too many others. Expected none that includes itself.");
-    read_file(file.parent_path() / unquoted(keyword.get("INPUT")), reading,
-              depth + 1, files);
+    const std::filesystem::path other =
+        file.parent_path() / unquoted(keyword.get("INPUT"));
+    if (!std::filesystem::exists(other))
+      scanner.fail(fmt::format(
+          "the file '{}' is missing. Expected it at a path relative to this "
+          "file.",
+          echo(keyword.get("INPUT"))));
+    read_file(other, reading, depth + 1, files);
   }
 }
 

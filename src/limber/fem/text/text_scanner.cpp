@@ -14,7 +14,7 @@
 namespace limber::fem {
 namespace {
 
-constexpr std::size_t kScannerBlock = std::size_t{1} << 20;
+constexpr std::size_t kLargestBlock = std::size_t{1} << 20;
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 constexpr bool is_blank(char c) {
@@ -70,10 +70,11 @@ bool TextScanner::fill() {
   buffer_.erase(0, start_);
   start_ = 0;
   const std::size_t size = buffer_.size();
-  buffer_.resize(size + kScannerBlock);
-  const std::size_t count = input_.read(buffer_.data() + size, kScannerBlock);
+  buffer_.resize(size + block_);
+  const std::size_t count = input_.read(buffer_.data() + size, block_);
   buffer_.resize(size + count);
-  ended_ = count < kScannerBlock;
+  ended_ = count < block_;
+  block_ = std::min(2 * block_, kLargestBlock);
   return true;
 }
 

@@ -45,7 +45,8 @@ class TextScanner {
   std::filesystem::path file_;
   InputFile input_;
   std::string buffer_;
-  std::size_t start_ = 0;  // of what is not yet read, in the buffer
+  std::size_t block_ = 4096;  // to read next; larger ones in large files
+  std::size_t start_ = 0;     // of what is not yet read, in the buffer
   bool ended_ = false;
   bool stays_ = false;
   std::string_view line_;

@@ -41,7 +41,7 @@ struct StressModes {
   std::vector<std::vector<std::size_t>> interface_rows;
   /// 9 x p: axes 1, 2, 3 of each point in B, column by column: of a solid those
   /// of its material, of a shell along the fibre, across it, normal, of a beam
-  /// x, y, z. 9 x 0: of isotropic solids alone, which have none.
+  /// x, y, z. Zero where a material is isotropic; 9 x 0: of such solids alone.
   MatrixX axes = MatrixX(9, 0);
   SectionModes sections;  ///< of beams and shells
 };

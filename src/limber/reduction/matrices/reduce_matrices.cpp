@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/length_unit.hpp"
 #include "limber/fem/matrices/read_matrices.hpp"
 #include "limber/fem/sections/sectioned_mesh.hpp"
 #include "limber/fem/structural/assemble_structure.hpp"
@@ -144,27 +145,28 @@ std::shared_ptr<const MatrixPart> read_structure_part(const MeshSource& source,
         fmt::format("{}: a mesh size or order was given, but its beams and "
                     "shells are elements already. Expected none.",
                     source.file.string()));
-  if (source.force > 0.0 || !source.ignored.empty())
-    throw InputError(
-        fmt::format("{}: a unit of force or cards to ignore were given, which "
-                    "go with a deck of solids. Its beams and shells have "
-                    "forces in N. Expected none.",
-                    source.file.string()));
+  if (source.force == 0.0 && !is_metric(unit))
+    throw InputError(fmt::format(
+        "{}: its unit of force is not known, as lengths are in {:g} m. "
+        "Expected "
+        "the deck's unit of force (force unit N or lbf, for example).",
+        source.file.string(), unit));
+  const double force = source.force == 0.0 ? 1.0 : source.force;
   report(progress, "reading beams and shells", 0.0);
-  const fem::Structure structure = fem::read_structure(source.file);
+  fem::Structure structure = fem::read_structure(source.file, source.ignored);
+  fem::convert_forces(structure, force);
   if (origin != nullptr) origin->paths = structure.files;
   if (structure.has_solids) report(progress, "reading solids", 0.0);
   const fem::StructureSolids solids =
-      fem::read_structure_solids(structure, unit);
+      fem::read_structure_solids(structure, unit, force);
   return assemble_part(structure, solids, unit, progress);
 }
 
 }  // namespace
 
 bool is_node_model(const MeshSource& source) {
-  // Who leaves cards of a deck of solids out has them alone.
   return source.is_matrices() || !source.sections.empty() ||
-         fem::is_structure(source.file, source.ignored.empty());
+         fem::is_structure(source.file, source.ignored);
 }
 
 std::shared_ptr<const MatrixPart> read_matrix_part(const MeshSource& source,

@@ -149,6 +149,30 @@ void require_material_axes(const flexbody::StressModes& modes) {
       "their axes, in which case reduce it again");
 }
 
+/// Those of materials with axes of their own, of which each node has one.
+std::vector<Eigen::Index> select_with_axes(
+    const flexbody::ReducedBody& body,
+    const std::vector<Eigen::Index>& points) {
+  const flexbody::StressModes& modes = *body.stress;
+  require_material_axes(modes);
+  std::vector<Eigen::Index> with_axes;
+  std::set<Eigen::Index> covered;
+  for (const Eigen::Index point : points)
+    if (!modes.axes.col(point).isZero(0.0)) {
+      with_axes.push_back(point);
+      covered.insert(find_row_of(modes, point));
+    }
+  for (const Eigen::Index point : points)
+    if (const Eigen::Index row = find_row_of(modes, point);
+        !covered.contains(row))
+      throw InputError(fmt::format(
+          "axes = 'material': the material at node {} is isotropic and has no "
+          "axes. Expected nodes of materials whose elasticity depends on "
+          "direction (nearest, or a group of them)",
+          body.rows.tags[index(row)]));
+  return with_axes;
+}
+
 }  // namespace
 
 bool has_stress(Fidelity level) { return level != Fidelity::rigid; }
@@ -205,10 +229,12 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
   if (quantity == StressQuantity::section_force) {
     return make_section_force_probe(body, rows, place.section, X_BL);
   }
-  const std::vector<Eigen::Index> points =
+  std::vector<Eigen::Index> points =
       sections.exist()
           ? select_section_points(body, rows, quantity, place.section)
           : select_points(modes, rows);
+  if (!sections.exist() && place.section.axes == StressAxes::material)
+    points = select_with_axes(body, points);
   const bool has_axes = has_own_axes(quantity, place.section);
   if (has_axes) require_material_axes(modes);
   const auto count = static_cast<Eigen::Index>(points.size());

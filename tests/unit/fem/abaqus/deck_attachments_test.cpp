@@ -37,6 +37,53 @@ TEST(DeckAttachments, MassOfASetIsAtEachOfItsElements) {
   EXPECT_THAT(deck.masses, ElementsAre(Pair(2, 0.5), Pair(4, 2.5)));
 }
 
+std::string find_error_of(const std::string& more) {
+  try {
+    static_cast<void>(read(kSolid + more));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(DeckAttachments, MassesWithoutTheirElementsAreRefused) {
+  EXPECT_THAT(find_error_of("*MASS, ELSET=E\n1.\n"),
+              HasSubstr("deck.inp:12: *MASS has element 1, which is no MASS"));
+  EXPECT_THAT(
+      find_error_of("*MASS, ELSET=None\n1.\n"),
+      HasSubstr("deck.inp:12: *MASS has the set NONE, which is missing"));
+}
+
+TEST(DeckAttachments, MassesAreOneForEachElementAndAlikeAlongAllAxes) {
+  const std::string point = "*ELEMENT, TYPE=MASS, ELSET=M\n11, 2\n";
+  EXPECT_THAT(find_error_of(point + "*MASS, ELSET=M\n1.\n1.\n"),
+              HasSubstr("deck.inp:15: element 11 has a *MASS already"));
+  EXPECT_THAT(
+      find_error_of(point + "*MASS, ELSET=M, TYPE=ANISOTROPIC\n1., 2., 3.\n"),
+      HasSubstr("deck.inp:14: *MASS has another TYPE"));
+}
+
+TEST(DeckAttachments, SetsHaveNamesAndMembersThatAreThere) {
+  EXPECT_THAT(find_error_of("*NSET, NSET=X\n1, 99\n"),
+              HasSubstr("deck.inp:11: the set X has node 99"));
+  EXPECT_THAT(find_error_of("*ELSET, ELSET=Y\n1, 98\n"),
+              HasSubstr("deck.inp:11: the set Y has element 98"));
+  for (const char* text :
+       {"*NSET\n1\n", "*ELSET\n1\n", "*SURFACE\nE, S1\n", "*MATERIAL\n"})
+    EXPECT_THAT(find_error_of(text), HasSubstr("deck.inp:11: *")) << text;
+}
+
+TEST(DeckAttachments, KeywordsThatAreNotKnownAreRefusedOutsideOfSteps) {
+  EXPECT_THAT(find_error_of("*WHAT\n1.\n"),
+              HasSubstr("deck.inp:11: *WHAT would be lost"));
+  EXPECT_THAT(find_error_of("*NONSTRUCTURAL MASS, ELSET=E\n1.\n"),
+              HasSubstr("deck.inp:11: *NONSTRUCTURAL MASS would be lost"));
+  EXPECT_EQ(find_error_of("*STEP\n*WHAT\n*END STEP\n"), "none");
+  const auto file = testing::write_file("deck.inp", kSolid + "*WHAT\n1.\n");
+  EXPECT_THAT(read_solid_deck(file, {"what"}).notices,
+              ::testing::Contains(HasSubstr("as you ask")));
+}
+
 TEST(DeckAttachments, NodesHeldInAllDirectionsAreTheSetBoundary) {
   const SolidDeck deck =
       read(kSolid +

@@ -20,6 +20,7 @@ namespace limber::fem::bulk_data_test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -164,6 +165,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCard{"CONM1,9,1,,5.", "CONM1 is not a solid"},
         BadCard{"CELAS2,9,1.+3,1,1,2,1", "CELAS2 is not a solid"},
         BadCard{"CHEXA27,9,1,1", "is not a solid"},
+        BadCard{"NSM1,9,PSOLID,1.,1", "NSM1 is not a solid"},
+        BadCard{"WHAT,9,1", "WHAT is not known"},
+        BadCard{"CONM2,1,2,,1.", "element 1 is there twice"},
+        BadCard{"RBE2,1,5,123,2,3", "element 1 is there twice"},
         BadCard{"MPC,9,1,1,1.,2,1,-1.", "MPC constrains nodes"},
         BadCard{"CORD3G,9,1,1,1,1", "CORD3G is not"},
         BadCard{"CTETRA,9,1,1,2,3,4,5,6", "has node 5, which is missing"},
@@ -189,6 +194,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "depends on itself"},
         BadCard{"CORD1R,7,1,2,88\nGRID,9,7", "GRID 88 is missing"},
         BadCard{"PSOLID,9,1,,,,,PFLUID", "a fluid"}));
+
+TEST(BulkData, SolidsAndUnknownCardsAreLeftOutOnRequest) {
+  const SolidDeck data = read_bulk_data(
+      write_file("deck.bdf", deck(kTetra + "WHAT,1\nGRID,5,,1.,"
+                                           "1.,1.\nCTETRA,2,2,"
+                                           "5,2,3,4\nCPENTA,3\n")),
+      {"what", "CPENTA"});
+  EXPECT_EQ(data.solids.begin()->second.elements.size(), 2U);
+  EXPECT_THAT(data.notices,
+              Contains(AllOf(HasSubstr("as you ask"), HasSubstr("1 WHAT"),
+                             HasSubstr("1 CPENTA"))));
+}
 
 TEST(BulkData, ContinuationsMustFollowTheirCard) {
   EXPECT_THAT(find_error(deck("+A,7,8,9,10\n" + kTetra)),

@@ -24,7 +24,7 @@ using testing::write_file;
 AssembledStructure read(const std::string& name, const std::string& text,
                         double unit = 1.0) {
   const auto file = write_file(name, text);
-  EXPECT_TRUE(is_structure(file, true)) << text;
+  EXPECT_TRUE(is_structure(file)) << text;
   const Structure structure = read_structure(file);
   return assemble_structure(structure, read_structure_solids(structure, unit));
 }
@@ -261,7 +261,7 @@ TEST(MixedStructure, ADistributionOfAFaceWeighsItsNodesByArea) {
 
 TEST(MixedStructure, RefusesWhatIsWrongInAnInputFileWithItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"*TIE, NAME=T\nA, B\n", "bad.inp:31: *TIE is not read"},
+      {"*TIE, NAME=T\nA, B\n", "bad.inp:31: *TIE would be lost"},
       {"*RIGID BODY, NSET=Face\n", "bad.inp:31: *RIGID BODY. Expected NSET"},
       {"*RIGID BODY, NSET=No, REF NODE=11\n", "its set of nodes NO is missing"},
       {"*RIGID BODY, NSET=Face, REF NODE=Face\n", "a set of 4 nodes"},
@@ -287,7 +287,7 @@ TEST(MixedStructure, RefusesWhatIsWrongInAnInputFileWithItsLine) {
        "*KINEMATIC\n",
        "bad.inp:32: S1 of elements B31 is not read"},
       {"*ELEMENT, TYPE=S8R, ELSET=S\n9, 1, 2, 3, 4, 5, 6, 7, 8\n",
-       "bad.inp:31: elements S8R are not read"},
+       "bad.inp:31: elements S8R would be lost"},
       {"*RIGID BODY, NSET=Face, REF NODE=11\n*SHELL SECTION, ELSET=Block, "
        "MATERIAL=M\n.1\n",
        "bad.inp:32: element 1 is a C3D8"},
