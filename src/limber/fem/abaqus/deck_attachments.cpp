@@ -21,11 +21,15 @@ unsigned find_named_mask(const std::string& name) {
 
 }  // namespace
 
+void require_isotropic_mass(const DeckPlace& at, const Keyword& keyword) {
+  if (keyword.has("TYPE") && !keyword.get("TYPE").starts_with("ISO"))
+    at.fail("*MASS has another TYPE. Expected the same mass along all axes.");
+}
+
 void DeckAttachments::add_data(const DeckPlace& at, const Keyword& keyword,
                                std::string_view line) {
   if (keyword.name == "MASS") {
-    if (keyword.has("TYPE") && !keyword.get("TYPE").starts_with("ISO"))
-      at.fail("*MASS has another TYPE. Expected the same mass along all axes.");
+    require_isotropic_mass(at, keyword);
     const std::string_view field = split_commas(line)[0];
     double mass = 0.0;
     if (!parse_real(field, mass) || !(mass >= 0.0))

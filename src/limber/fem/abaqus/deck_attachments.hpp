@@ -17,6 +17,9 @@ struct DeckMass {
   double mass = 0.0;  ///< >= 0 [deck units]
 };
 
+/// @throws InputError for a *MASS that differs by axes
+void require_isotropic_mass(const DeckPlace& at, const Keyword& keyword);
+
 /// *MASS and *BOUNDARY of an input file.
 class DeckAttachments {
  public:

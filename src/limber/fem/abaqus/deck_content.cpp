@@ -17,11 +17,6 @@
 namespace limber::fem {
 namespace {
 
-template <typename List>
-bool has_keyword(const List& list, std::string_view name) {
-  return std::ranges::find(list, name) != list.end();
-}
-
 class ContentReader {
  public:
   DeckContent read(const std::filesystem::path& file) {
@@ -45,7 +40,7 @@ class ContentReader {
   [[nodiscard]] bool is_used() const {
     constexpr std::array<std::string_view, 6> kUsed = {
         "INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"};
-    return has_keyword(kUsed, keyword_.name);
+    return std::ranges::find(kUsed, keyword_.name) != kUsed.end();
   }
 
   void begin(const DeckPlace& at, const Keyword& keyword, const Pose& pose) {
@@ -78,7 +73,7 @@ class ContentReader {
       case KeywordEffect::none:
         break;
     }
-    require_name(at);
+    begin_named(at);
     deck_.materials.begin(at, keyword_, pose);
     if (name == "SURFACE" && keyword_.has("TYPE") &&
         keyword_.get("TYPE") == "NODE")
@@ -88,13 +83,12 @@ class ContentReader {
   }
 
   /// Of what others refer to.
-  void require_name(const DeckPlace& at) {
+  void begin_named(const DeckPlace& at) {
     const std::string& name = keyword_.name;
     const bool is_set = name == "NSET" || name == "ELSET";
     if (!is_set && name != "SURFACE" && name != "MATERIAL") return;
     const std::string key = is_set ? name : "NAME";
-    if (keyword_.get(key).empty())
-      at.fail(fmt::format("*{} has no name. Expected {}=NAME.", name, key));
+    require_name(at, keyword_, key);
     if (is_set) deck_.places.try_emplace(keyword_.get(key), at.text());
   }
 

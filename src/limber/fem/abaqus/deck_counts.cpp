@@ -15,15 +15,15 @@ void count_in_deck(const DeckPlace& at, const std::string& what,
   if (entry.count++ == 0) entry.first = at.text();
 }
 
-std::vector<std::string> list_deck_counts(const DeckCounts& counts,
-                                          const std::string& file,
-                                          const char* why) {
-  if (counts.empty()) return {};
+void note_in_deck(const DeckCounts& counts, const std::string& file,
+                  const char* why, std::vector<std::string>& notices) {
+  if (counts.empty()) return;
   std::vector<std::string> texts;
   for (const auto& [what, entry] : counts)
     texts.push_back(
         fmt::format("{} {} ({})", entry.count, echo(what), entry.first));
-  return {fmt::format("{}: {}: {}.", file, why, fmt::join(texts, ", "))};
+  notices.push_back(
+      fmt::format("{}: {}: {}.", file, why, fmt::join(texts, ", ")));
 }
 
 void refuse_in_deck(const DeckCounts& refused, const std::string& expected) {

@@ -20,9 +20,9 @@ using DeckCounts = std::map<std::string, DeckCount>;
 void count_in_deck(const DeckPlace& at, const std::string& what,
                    DeckCounts& counts);
 
-/// "file: why: 2 *TIE (file:7), ..."; none without any
-[[nodiscard]] std::vector<std::string> list_deck_counts(
-    const DeckCounts& counts, const std::string& file, const char* why);
+/// Adds "file: why: 2 *TIE (file:7), ..."; nothing without any.
+void note_in_deck(const DeckCounts& counts, const std::string& file,
+                  const char* why, std::vector<std::string>& notices);
 
 /// @param expected "Expected ...", without a full stop
 /// @throws InputError that they would be lost, if there are any

@@ -344,8 +344,7 @@ class SolidDeckReader {
     report_unused_nodes();
     report_types();
     const auto tell = [this](const DeckCounts& counts, const char* why) {
-      for (std::string& note : list_deck_counts(counts, file_.string(), why))
-        deck_.notices.push_back(std::move(note));
+      note_in_deck(counts, file_.string(), why, deck_.notices);
     };
     tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(edges_, "left out as edges, as no section describes them");

@@ -178,6 +178,13 @@ std::optional<double> BulkCard::real(std::size_t index,
   return value;
 }
 
+bool BulkCard::require(bool fine, const std::string& what,
+                       DeckProblems& problems) const {
+  if (!fine)
+    problems.add(*line, fmt::format("{} {}: {}", name, echo(field(0)), what));
+  return fine;
+}
+
 bool CardReader::next(BulkCard& card) {
   card = {};
   std::string_view promised;

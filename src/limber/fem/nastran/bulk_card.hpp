@@ -42,6 +42,10 @@ struct BulkCard {
   /// A number, also as 7.+10 and 1.D3; 0 where the field is blank.
   [[nodiscard]] std::optional<double> real(std::size_t index,
                                            DeckProblems& problems) const;
+  /// Adds the problem "NAME NUMBER: what" unless it is fine.
+  /// @returns whether it is
+  bool require(bool fine, const std::string& what,
+               DeckProblems& problems) const;
 };
 
 /// The cards of a deck one after the other: small, large and free fields, with

@@ -77,10 +77,10 @@ class BulkReader {
       add_solid(card, *solid);
     } else if (card.name == "GRID") {
       grids_.add_grid(card);
-      count_supports(card);
+      count_supports(card, unused_);
     } else if (card.name == "GRDSET") {
       grids_.add_default(card);
-      count_supports(card);
+      count_supports(card, unused_);
     } else if (is_coordinate_system(card.name)) {
       grids_.add_system(card);
     } else if (materials_.add(card)) {
@@ -103,13 +103,6 @@ class BulkReader {
                card.name.starts_with("MATS")) {  // a law beyond elasticity
       count_card(card, unused_);
     }
-  }
-
-  void count_supports(const BulkCard& card) {
-    constexpr std::size_t kPermanent = 6;
-    const std::string_view fixed = card.field(kPermanent);
-    if (!fixed.empty() && fixed != "0")
-      count_card(card, unused_, " with supports (PS)");
   }
 
   bool take_number(int id, const BulkCard& card) {
@@ -242,8 +235,7 @@ class BulkReader {
           "{}: left out as marks of the surface, as the deck has no "
           "properties: {}.",
           deck_.files[0].string(), list_counts(deck_, marks_)));
-    for (std::string& note : note_left_out(deck_, left_out_))
-      data_.notices.push_back(std::move(note));
+    note_left_out(deck_, left_out_, data_.notices);
     if (!unused_.empty())
       data_.notices.push_back(
           fmt::format("{}: not used: {}. Supports and loads are those of the "

@@ -24,6 +24,13 @@ void count_card(const BulkCard& card, CardCounts& counts,
   if (entry.count++ == 0) entry.first = card.line;
 }
 
+void count_supports(const BulkCard& card, CardCounts& counts) {
+  constexpr std::size_t kPermanent = 6;
+  const std::string_view fixed = card.field(kPermanent);
+  if (!fixed.empty() && fixed != "0")
+    count_card(card, counts, " with supports (PS)");
+}
+
 std::string list_counts(const Deck& deck, const CardCounts& counts) {
   std::vector<std::string> texts;
   for (const auto& [name, cards] : counts)
@@ -43,12 +50,12 @@ CardCounts extract_ignored(const std::set<std::string>& ignored,
   return left_out;
 }
 
-std::vector<std::string> note_left_out(const Deck& deck,
-                                       const CardCounts& left_out) {
-  if (left_out.empty()) return {};
-  return {
+void note_left_out(const Deck& deck, const CardCounts& left_out,
+                   std::vector<std::string>& notices) {
+  if (left_out.empty()) return;
+  notices.push_back(
       fmt::format("{}: left out as you ask, so that the body lacks them: {}.",
-                  deck.files[0].string(), list_counts(deck, left_out))};
+                  deck.files[0].string(), list_counts(deck, left_out)));
 }
 
 void refuse_cards(const CardCounts& refused, std::string_view what,

@@ -21,6 +21,8 @@ using CardCounts = std::map<std::string, CardCount, std::less<>>;
 /// @param with what else their name has in messages
 void count_card(const BulkCard& card, CardCounts& counts,
                 std::string_view with = "");
+/// Counts a GRID or GRDSET with permanent supports (PS).
+void count_supports(const BulkCard& card, CardCounts& counts);
 
 /// "2 SPC1 (line 7), 1 FORCE (line 9 of loads.inc)"
 [[nodiscard]] std::string list_counts(const Deck& deck,
@@ -30,9 +32,10 @@ void count_card(const BulkCard& card, CardCounts& counts,
 [[nodiscard]] CardCounts extract_ignored(const std::set<std::string>& ignored,
                                          CardCounts& refused);
 
-/// "left out as you ask, so that the body lacks them: ..."; empty without any
-[[nodiscard]] std::vector<std::string> note_left_out(
-    const Deck& deck, const CardCounts& left_out);
+/// Adds "left out as you ask, so that the body lacks them: ..."; nothing
+/// without any.
+void note_left_out(const Deck& deck, const CardCounts& left_out,
+                   std::vector<std::string>& notices);
 
 /// A problem for each name of card.
 /// @param what such a card is: "is not a solid"

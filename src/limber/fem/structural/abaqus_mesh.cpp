@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/text/text_scanner.hpp"

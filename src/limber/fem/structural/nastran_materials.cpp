@@ -6,16 +6,12 @@
 #include <Eigen/LU>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
-#include "limber/common/echo.hpp"
 
 namespace limber::fem {
 
 bool NastranMaterials::require(bool fine, const BulkCard& card,
                                const std::string& what) {
-  if (!fine)
-    problems_->add(*card.line, fmt::format("{} {}: {}", card.name,
-                                           echo(card.field(0)), what));
-  return fine;
+  return card.require(fine, what, *problems_);
 }
 
 std::optional<std::vector<double>> NastranMaterials::read_reals(

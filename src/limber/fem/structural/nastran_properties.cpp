@@ -39,10 +39,7 @@ Matrix2 make_shear(const PlyMaterial& m, bool is_stated) {
 
 bool NastranProperties::require(bool fine, const BulkCard& card,
                                 const std::string& what) {
-  if (!fine)
-    problems_->add(*card.line, fmt::format("{} {}: {}", card.name,
-                                           echo(card.field(0)), what));
-  return fine;
+  return card.require(fine, what, *problems_);
 }
 
 double NastranProperties::real(const BulkCard& card, std::size_t field) {

@@ -38,8 +38,7 @@ class RigidReader {
 
  private:
   void refuse(const std::string& what) {
-    problems_.add(*card_.line, fmt::format("{} {}: {}", card_.name,
-                                           echo(card_.field(0)), what));
+    card_.require(false, what, problems_);
   }
 
   void read_bar() {

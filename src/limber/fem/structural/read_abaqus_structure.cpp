@@ -94,8 +94,7 @@ class StructureDeckReader {
     for (const char* key : {"NSET", "ELSET"})
       if (keyword.has(key))
         spelling_.try_emplace(keyword.get(key), keyword_.spelled[key]);
-    if ((name == "NSET" || name == "ELSET") && keyword.get(name).empty())
-      at.fail(fmt::format("*{} has no name. Expected {}=NAME.", name, name));
+    if (name == "NSET" || name == "ELSET") require_name(at, keyword, name);
     if (keyword.has("NSET"))
       places_.try_emplace(keyword.get("NSET"), at.text());
     is_in_step_ = name == "STEP" || (is_in_step_ && name != "END STEP");
@@ -151,8 +150,7 @@ class StructureDeckReader {
 
   void begin_mass(const DeckPlace& at) {
     kind_ = LineKind::mass;
-    if (keyword_.has("TYPE") && !keyword_.get("TYPE").starts_with("ISO"))
-      at.fail("*MASS has another TYPE. Expected the same mass along all axes.");
+    require_isotropic_mass(at, keyword_);
     masses_.push_back({at.text(), keyword_.get("ELSET"), -1.0});
   }
 
@@ -383,8 +381,7 @@ class StructureDeckReader {
           fmt::format("{}: read with the integration of this program: {}.",
                       structure_.source, fmt::join(integrated_, ", ")));
     const auto tell = [this](const DeckCounts& counts, const char* why) {
-      for (std::string& note : list_deck_counts(counts, structure_.source, why))
-        structure_.notices.push_back(std::move(note));
+      note_in_deck(counts, structure_.source, why, structure_.notices);
     };
     tell(left_out_, "left out as you ask, so that the body lacks them");
     tell(unused_,

@@ -2,7 +2,6 @@
 #include "limber/fem/structural/read_nastran_structure.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -74,8 +73,7 @@ class StructureReader {
     const CardCounts left_out = extract_ignored(ignored_, refused_);
     refuse_cards(refused_, "is not read among beams and shells", kReadCards,
                  problems_);
-    for (std::string& note : note_left_out(deck_, left_out))
-      structure_.notices.push_back(std::move(note));
+    note_left_out(deck_, left_out, structure_.notices);
     number_nodes();
     for (const BulkCard& one : solids_) add_solid(one);
     for (const BulkCard& one : beams_) add_beam(one);
@@ -121,9 +119,7 @@ class StructureReader {
   }
 
   void add_point(const BulkCard& card) {
-    constexpr std::size_t kPermanent = 6;  // PS
-    if (!card.field(kPermanent).empty() && card.field(kPermanent) != "0")
-      count_card(card, unused_, " with supports (PS)");
+    count_supports(card, unused_);
     if (card.name == "GRID") {
       grids_.add_grid(card);
     } else {

@@ -28,6 +28,13 @@ void generate(const DeckPlace& at, const std::vector<std::string_view>& fields,
 
 }  // namespace
 
+void require_name(const DeckPlace& at, const Keyword& keyword,
+                  const std::string& key) {
+  if (keyword.get(key).empty())
+    at.fail(
+        fmt::format("*{} has no name. Expected {}=NAME.", keyword.name, key));
+}
+
 long read_deck_number(const DeckPlace& at, std::string_view field,
                       const char* what) {
   constexpr long kMost = 2'000'000'000;

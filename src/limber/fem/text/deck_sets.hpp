@@ -13,6 +13,10 @@
 
 namespace limber::fem {
 
+/// @throws InputError for a keyword whose parameter `key`, its name, is missing
+void require_name(const DeckPlace& at, const Keyword& keyword,
+                  const std::string& key);
+
 /// @throws InputError with file and line unless it is an integer from 1
 [[nodiscard]] long read_deck_number(const DeckPlace& at, std::string_view field,
                                     const char* what);
