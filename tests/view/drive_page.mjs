@@ -409,7 +409,10 @@ async function checkArrow(tab) {
 
 async function download(tab, key, header) {
   const [file] = await Promise.all([
-    tab.waitForEvent('download', { timeout: 60000 }), tab.keyboard.press(key),
+    tab.waitForEvent('download', { timeout: 240000 }).catch(async (error) => {
+      throw new Error(`${key}: ${await tab.textContent('#note')} ${error.message}`);
+    }),
+    tab.keyboard.press(key),
   ]);
   const bytes = await readFile(await file.path());
   assert.ok(bytes.length > 5000, `${file.suggestedFilename()} has ${bytes.length} bytes`);

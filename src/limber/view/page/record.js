@@ -30,19 +30,20 @@ export function takePicture(canvas, draw, caption) {
 /// Plays the interval once and records it, with the caption of each frame.
 /// @param draw, caption as of takePicture
 export function takeFilm(canvas, draw, caption, player) {
-  const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((t) =>
+  // Of the two, VP8 is faster to encode: a busy machine keeps up with it.
+  const type = ['video/webm;codecs=vp8', 'video/webm;codecs=vp9', 'video/webm'].find((t) =>
     MediaRecorder.isTypeSupported(t),
   );
   if (!type) return Promise.reject(new Error('this browser records no WebM'));
   const frame = copyShape(canvas);
+  const stream = frame.captureStream(0);  // of frames that are asked for
+  const [track] = stream.getVideoTracks();
   const drawFrame = () => {
     draw();
     drawWithCaption(canvas, caption(), frame);
+    track.requestFrame();
   };
-  drawFrame();
-  const recorder = new MediaRecorder(frame.captureStream(30), {
-    mimeType: type, videoBitsPerSecond: 8e6,
-  });
+  const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 8e6 });
   const parts = [];
   recorder.ondataavailable = (event) => parts.push(event.data);
   return new Promise((done, fail) => {
@@ -53,6 +54,7 @@ export function takeFilm(canvas, draw, caption, player) {
     };
     player.seek(player.from);
     recorder.start();
+    drawFrame();
     player.play();
     let last = player.time;
     const watch = () => {
