@@ -80,7 +80,7 @@ def read_toml(file):
 def is_of_robot(path, tables):
     """Whether a path is a key of the robot's file, as in ``limber run --set``."""
     parts = _split(path)
-    if parts[0] != "robot" or (len(parts) == 2 and parts[1] in ("base", "file")):
+    if parts[0] != "robot" or (len(parts) == 2 and parts[1] in ("base", "file", "joint")):
         return False
     return len(parts) > (4 if isinstance(tables.get("robot"), list) else 1)
 

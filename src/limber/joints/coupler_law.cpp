@@ -117,6 +117,18 @@ ConstraintDeflection find_deflection(const CouplerLaw& law,
       law);
 }
 
+bool is_ideal(const CouplerLaw& law) {
+  const auto* joint = std::get_if<Joint>(&law);
+  return joint != nullptr && joint->is_ideal();
+}
+
+ConstraintGap find_constraint_gap(const CouplerLaw& law,
+                                  const RelativeMotion& motion) {
+  const auto* joint = std::get_if<Joint>(&law);
+  LIMBER_EXPECT(joint != nullptr);
+  return joint->find_constraint_gap(motion);
+}
+
 std::vector<AxisCoordinate::Kind> reading_kinds(const CouplerLaw& law) {
   return std::visit([](const auto& own) { return own.reading_kinds(); }, law);
 }

@@ -84,6 +84,13 @@ void update_memory(const CouplerLaw& law, int index,
     const CouplerLaw& law, const ConstraintStiffness& stiffness,
     const RelativeMotion& motion);
 
+/// Whether the law is a joint without deflection, which CouplerMemory's
+/// constraint wrench holds.
+[[nodiscard]] bool is_ideal(const CouplerLaw& law);
+/// @throws ContractError unless the law is a joint.
+[[nodiscard]] ConstraintGap find_constraint_gap(const CouplerLaw& law,
+                                                const RelativeMotion& motion);
+
 /// Coordinates that a simulation can record, and one of them: those of a joint,
 /// the length of a spring.
 [[nodiscard]] std::vector<AxisCoordinate::Kind> reading_kinds(

@@ -5,6 +5,7 @@
 
 #include "limber/common/pose.hpp"
 #include "limber/common/records/fields.hpp"
+#include "limber/common/types.hpp"
 #include "limber/joints/coordinates/switches.hpp"
 
 namespace limber::joints {
@@ -27,10 +28,14 @@ struct CouplerMemory {
   std::array<SwitchMode, kMaxSwitches> switches{};
   LatchStatus latch = LatchStatus::open;
   Pose X_FM;  ///< rest pose of a closed latch [-], [m]
+  /// Of an ideal joint, that of its constraint over the last step, as
+  /// CouplerResponse::wrench [N, N m].
+  Vector6 constraint_wrench = Vector6::Zero();
 };
 
 constexpr auto fields_of(const CouplerMemory*) {
-  return list_fields("memory", "near [rad, m]", "switches", "latch", "X_FM");
+  return list_fields("memory", "near [rad, m]", "switches", "latch", "X_FM",
+                     "constraint wrench [N, N m]");
 }
 
 }  // namespace limber::joints

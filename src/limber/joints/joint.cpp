@@ -7,11 +7,36 @@
 #include "limber/common/errors.hpp"
 
 namespace limber::joints {
+namespace {
+
+Joint::Constraint without_stiffness(const Bushing& bushing) {
+  Bushing::Parameters free = bushing.parameters();
+  free.translational_stiffness.setZero();
+  free.rotational_stiffness.setZero();
+  free.coupling_stiffness.setZero();
+  return Bushing(free);
+}
+
+Joint::Constraint without_stiffness(const UniversalConstraint& constraint) {
+  UniversalConstraint::Parameters free = constraint.parameters();
+  free.translational_stiffness = free.rotational_stiffness = 0.0;
+  return UniversalConstraint(free);
+}
+
+Joint::Constraint find_acting(const Joint::Parameters& joint) {
+  if (!joint.is_ideal) return joint.constraint;
+  return std::visit(
+      [](const auto& constraint) { return without_stiffness(constraint); },
+      joint.constraint);
+}
+
+}  // namespace
 
 Joint::Joint(Constraint constraint, std::vector<AxisCoordinate> coordinates,
-             std::vector<JointElement> elements)
+             std::vector<JointElement> elements, bool is_ideal)
     : parameters_{std::move(constraint), std::move(coordinates),
-                  std::move(elements)} {
+                  std::move(elements), is_ideal},
+      acting_(find_acting(parameters_)) {
   LIMBER_EXPECT(std::ssize(this->coordinates()) <= kMaxCoordinates);
   for (const AxisCoordinate& coordinate : this->coordinates()) {
     LIMBER_EXPECT(std::abs(coordinate.axis.norm() - 1.0) < 1e-9);
@@ -32,7 +57,8 @@ CouplerResponse Joint::evaluate(const RelativeMotion& motion,
                                 const EvaluationTime& now) const {
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion); },
-      constraint());
+      acting_);
+  if (is_ideal()) response.wrench += memory.constraint_wrench;
   if (elements().empty()) return response;
   // Laws along one coordinate are summed.
   for (std::size_t i = 0; i < coordinates().size(); ++i) {
@@ -59,7 +85,8 @@ CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
                                           const StepTimes& times) const {
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion.mean); },
-      constraint());
+      acting_);
+  if (is_ideal()) response.wrench += memory.constraint_wrench;
   for (std::size_t e = 0; e < elements().size(); ++e) {
     const JointElement& element = elements()[e];
     const auto i = static_cast<std::size_t>(element.coordinate);
@@ -159,9 +186,26 @@ Vector6 Joint::find_target_velocity(const RelativeMotion& motion,
 }
 
 std::optional<ConstraintStiffness> Joint::find_constraint_stiffness() const {
+  if (is_ideal()) return std::nullopt;
   return std::visit(
       [](const auto& constraint) {
         return joints::find_constraint_stiffness(constraint);
+      },
+      constraint());
+}
+
+ConstraintGap Joint::find_constraint_gap(const RelativeMotion& motion) const {
+  return std::visit(
+      [&](const auto& constraint) {
+        const ConstraintStiffness stiffness =
+            joints::find_constraint_stiffness(constraint);
+        const auto invert = [](double k) { return k > 0.0 ? 1.0 / k : 0.0; };
+        Vector6 flexibility;
+        flexibility << Vector3::Constant(invert(stiffness.translational)),
+            Vector3::Constant(invert(stiffness.rotational));
+        const CouplerResponse response = constraint.evaluate(motion);
+        return ConstraintGap{flexibility.asDiagonal() * response.stiffness,
+                             flexibility.cwiseProduct(response.wrench)};
       },
       constraint());
 }

@@ -18,8 +18,11 @@ namespace limber::joints {
 /// free coordinates.
 ///
 /// Equation   the sum of the wrench of `constraint` and of force * gradient of
-/// each
-///            element, with the coordinates of AxisCoordinate
+///            each element, with the coordinates of AxisCoordinate. Of an ideal
+///            joint the wrench is CouplerMemory::constraint_wrench instead, and
+///            its deflection (find_constraint_gap) is zero: the stiffness of
+///            `constraint` tells which directions are constrained, and replaces
+///            them only where analyses make stiff joints of ideal ones.
 class Joint : public WithoutTriggers {
  public:
   using Constraint = std::variant<Bushing, UniversalConstraint>;
@@ -27,13 +30,14 @@ class Joint : public WithoutTriggers {
     Constraint constraint;
     std::vector<AxisCoordinate> coordinates;
     std::vector<JointElement> elements;
+    bool is_ideal = false;
   };
 
   /// @throws ContractError for more than kMaxCoordinates coordinates or
   /// kMaxSwitches switches, an axis that is not a unit vector, or an element on
   /// a coordinate that does not exist.
   Joint(Constraint constraint, std::vector<AxisCoordinate> coordinates,
-        std::vector<JointElement> elements);
+        std::vector<JointElement> elements, bool is_ideal = false);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] const Constraint& constraint() const {
@@ -45,6 +49,11 @@ class Joint : public WithoutTriggers {
   [[nodiscard]] const std::vector<JointElement>& elements() const {
     return parameters_.elements;
   }
+  [[nodiscard]] bool is_ideal() const { return parameters_.is_ideal; }
+
+  /// Deflection in the constrained directions, whether ideal or not.
+  [[nodiscard]] ConstraintGap find_constraint_gap(
+      const RelativeMotion& motion) const;
 
   /// @throws NumericalError as AxisCoordinate does.
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
@@ -102,11 +111,12 @@ class Joint : public WithoutTriggers {
   }
 
   Parameters parameters_;
+  Constraint acting_;  // what exerts forces: without stiffness if ideal
   std::vector<std::size_t> first_switch_;  // index, of each element
 };
 
 constexpr auto fields_of(const Joint::Parameters*) {
-  return list_fields("joint", "hold", "coordinates", "elements");
+  return list_fields("joint", "hold", "coordinates", "elements", "is ideal");
 }
 
 /// Adds a force along a coordinate to a wrench and its derivatives.

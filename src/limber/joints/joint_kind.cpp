@@ -144,7 +144,7 @@ Joint make_joint(JointKind kind, const Vector3& axis_F, const Vector3& second_F,
       find_coordinates(kind, axis_F, second_F);
   if (kind != JointKind::universal) {
     return {make_joint_bushing(kind, axis_F, parameters),
-            std::move(coordinates), std::move(elements)};
+            std::move(coordinates), std::move(elements), parameters.is_ideal};
   }
   check_parameters(parameters);
   const UniversalConstraint constraint =
@@ -154,7 +154,8 @@ Joint make_joint(JointKind kind, const Vector3& axis_F, const Vector3& second_F,
       elements.push_back({i, Friction({.viscous = parameters.free_damping})});
     }
   }
-  return {constraint, std::move(coordinates), std::move(elements)};
+  return {constraint, std::move(coordinates), std::move(elements),
+          parameters.is_ideal};
 }
 
 Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,

@@ -35,6 +35,9 @@ struct JointParameters {
   double rotational_damping = 0.0;       ///< [N m s/rad]
   double free_damping = 0.0;             ///< viscous, in the free directions
                                          ///< [N s/m or N m s/rad]
+  /// Whether constrained directions do not deflect. Their stiffness, > 0, then
+  /// counts only where an ideal joint is replaced by a stiff one.
+  bool is_ideal = false;
 };
 
 /// Two directions that complete the unit vector `axis` to a right-handed triad

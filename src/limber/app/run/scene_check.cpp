@@ -48,7 +48,9 @@ void check_frequencies(const scene::BuiltScene& built, SceneCheck& check) {
   const VectorX fastest = dynamics::find_coupler_frequencies(motion, count);
   Eigen::Index i = 0;
   for (const dynamics::Coupler& coupler : model.couplers) {
-    check.joints.push_back({coupler.name, fastest[i++]});
+    const double frequency = fastest[i++];
+    if (joints::is_ideal(coupler.law)) continue;
+    check.joints.push_back({coupler.name, frequency});
   }
   for (const dynamics::Transmission& line : model.transmissions) {
     check.joints.push_back({line.name, fastest[i++]});
@@ -71,13 +73,25 @@ void add_choices(const scene::Scene& scene, const scene::BuiltScene& built,
   }
   std::size_t joints = 0;
   std::size_t unset = 0;
+  std::size_t ideal = 0;
   for (const scene::Joint& joint : scene.robot.joints) {
     if (scene::merges(scene.robot, joint) ||
         joint.kind == joints::JointKind::floating) {
       continue;
     }
     ++joints;
-    if (!has_stiffness(joint.coupler)) ++unset;
+    if (joint.coupler.is_ideal.value_or(false)) {
+      ++ideal;
+    } else if (!has_stiffness(joint.coupler)) {
+      ++unset;
+    }
+  }
+  if (ideal > 0) {
+    choices.push_back(fmt::format(
+        "{} of {} joints are ideal: they do not deflect in a run, and have "
+        "{:g} "
+        "times a default stiffness in statics, frequencies and linear models",
+        ideal, joints, dynamics::kIdealRatio));
   }
   if (unset > 0) {
     choices.push_back(fmt::format(

@@ -9,9 +9,11 @@
 #include "limber/common/names.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/static_newton.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
@@ -227,6 +229,9 @@ EquilibriumMethod parse_equilibrium_method(std::string_view name) {
 Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
                              const EquilibriumSettings& settings,
                              const Progress& progress) {
+  if (const auto stiff = replace_ideal_joints(model)) {
+    return find_equilibrium(*stiff, start, settings, progress);
+  }
   if (!model.pairs.empty()) {
     throw InputError(fmt::format(
         "pair '{}': static equilibrium with pairs is not supported; use "

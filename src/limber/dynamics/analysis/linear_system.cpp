@@ -8,6 +8,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/steady_linearisation.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
@@ -166,6 +167,9 @@ void check_apart(const SystemModel& model, const SystemState& state) {
 LinearSystem linearise(const SystemModel& model, const SystemState& state,
                        const std::vector<AttachmentIndex>& frames,
                        const DriveNames& names) {
+  if (const auto stiff = replace_ideal_joints(model)) {
+    return linearise(*stiff, state, frames, names);
+  }
   check_apart(model, state);
   const SteadyMotion steady = linearise_steadily(model, state);
   if (steady.motion.size() == 0) {

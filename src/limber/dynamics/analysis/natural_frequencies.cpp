@@ -12,6 +12,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/steady_linearisation.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
@@ -213,6 +214,9 @@ double NaturalMode::damping_ratio() const {
 
 NaturalModes find_natural_modes(const SystemModel& model,
                                 const SystemState& state) {
+  if (const auto stiff = replace_ideal_joints(model)) {
+    return find_natural_modes(*stiff, state);
+  }
   NaturalModes found;
   found.is_moving = moves(state);
   std::vector<Vector3> spins(model.bodies.size(), Vector3::Zero());

@@ -8,6 +8,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
@@ -403,6 +404,9 @@ MatrixX SmallMotion::find_holds() const {
 SmallMotion find_small_motion(const SystemModel& model,
                               const SystemState& state, const TurningAxes& axes,
                               const std::vector<AttachmentIndex>& frames) {
+  if (const auto stiff = replace_ideal_joints(model)) {
+    return find_small_motion(*stiff, state, axes, frames);
+  }
   check_levels(model);
   SmallMotion motion;
   Derivatives(model, state, frames, motion).fill();

@@ -11,6 +11,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/group_lengths.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
@@ -248,6 +249,9 @@ class Spin {
 SystemState find_steady_spin(const SystemModel& model,
                              const SystemState& start) {
   LIMBER_EXPECT(!model.bodies.empty());
+  if (const auto stiff = replace_ideal_joints(model)) {
+    return find_steady_spin(*stiff, start);
+  }
   if (find_fastest_spin(start).isZero(0.0)) {
     throw InputError(
         "a system that moves without rotation has no steady rotation; leave "

@@ -53,6 +53,10 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
   out.motion = relate(frame_motion(terms.attachments[index(coupler.frame_F)]),
                       frame_motion(terms.attachments[index(coupler.frame_M)]));
   out.response = joints::evaluate(coupler.law, out.motion, memory, now);
+  if (out.ideal >= 0) {
+    terms.constraints[index(out.ideal)] =
+        joints::find_constraint_gap(coupler.law, out.motion);
+  }
   if (source == WrenchSource::law) out.applied = out.response.wrench;
   add_pair(model, coupler, out.applied, out.motion.p_FM_F, terms);
   out.received = -out.applied.head<3>().dot(out.motion.v_FM_F) -

@@ -274,6 +274,11 @@ SystemTerms make_terms(const SystemModel& model) {
     terms.attachments[i].wrench_B.setZero();
   }
   terms.couplers.resize(model.couplers.size());
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    if (!joints::is_ideal(model.couplers[c].law)) continue;
+    terms.couplers[c].ideal = static_cast<int>(terms.constraints.size());
+    terms.constraints.emplace_back();
+  }
   terms.transmissions = make_transmission_terms(model);
   terms.pairs = make_pair_terms(model);
   return terms;

@@ -36,9 +36,11 @@ struct Gap {
 };
 
 Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
-  // Every joint has a hold, of any stiffness.
-  const joints::ConstraintStiffness held =
-      joint.find_constraint_stiffness().value();
+  const joints::ConstraintStiffness held = std::visit(
+      [](const auto& constraint) {
+        return joints::find_constraint_stiffness(constraint);
+      },
+      joint.constraint());
   const joints::ConstraintDeflection deflection =
       joint.find_deflection(held, motion);
   const Matrix6 K = std::visit(

@@ -70,6 +70,7 @@ struct CouplerTerms {
   /// [N, N m].
   Vector6 applied = Vector6::Zero();
   double received = 0.0;  ///< power of the bodies that it joins on it [W]
+  int ideal = -1;  ///< index into SystemTerms::constraints of an ideal joint
 };
 
 /// One transmission at a state.
@@ -110,10 +111,12 @@ enum class WrenchSource { law, iterate };
 /// Everything computed at one state. Sized once by make_terms, refilled without
 /// allocation.
 struct SystemTerms {
-  std::vector<BodyTerms> bodies;                 ///< by calc_inertia_terms
-  std::vector<FullTerms> full;                   ///< by both
-  std::vector<AttachmentMotion> attachments;     ///< by calc_forces
-  std::vector<CouplerTerms> couplers;            ///< by calc_forces
+  std::vector<BodyTerms> bodies;              ///< by calc_inertia_terms
+  std::vector<FullTerms> full;                ///< by both
+  std::vector<AttachmentMotion> attachments;  ///< by calc_forces
+  std::vector<CouplerTerms> couplers;         ///< by calc_forces
+  /// Of ideal joints; over a step, at its end; by calc_forces.
+  std::vector<joints::ConstraintGap> constraints;
   std::vector<TransmissionTerms> transmissions;  ///< by calc_forces
   PairTerms pairs;                               ///< by calc_forces
   std::vector<ProductTerms> products;            ///< one a body, by calc_forces

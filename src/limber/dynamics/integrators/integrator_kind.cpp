@@ -17,6 +17,7 @@ IntegratorTraits make_traits(IntegratorKind kind) {
               .is_adaptive = true,
               .has_spectral_radius = true,
               .takes_nodes = true,
+              .takes_ideal_joints = true,
               .leaves_end_terms = true};
     case IntegratorKind::runge_kutta_4:
       return {.name = "runge-kutta-4",
@@ -35,10 +36,12 @@ IntegratorTraits make_traits(IntegratorKind kind) {
               .order = 1,
               .is_implicit = true,
               .takes_nodes = true,
+              .takes_ideal_joints = true,
               .leaves_end_terms = true};
     case IntegratorKind::energy_conserving:
       return {.name = "energy-conserving",
               .is_implicit = true,
+              .takes_ideal_joints = true,
               .leaves_end_terms = true};
     case IntegratorKind::splitting:
       return {.name = "splitting", .limit = StepLimit::growth};

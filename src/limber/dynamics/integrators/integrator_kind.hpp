@@ -35,6 +35,7 @@ struct IntegratorTraits {
   bool is_adaptive = false;
   bool has_spectral_radius = false;  ///< reads SimulationSettings::rho_inf
   bool takes_nodes = false;  ///< integrates bodies whose unknowns are nodes
+  bool takes_ideal_joints = false;  ///< solves for what holds them
   /// Modes driven by known loads only may be solved in closed form.
   bool takes_exact_modes = true;
   /// terms() belong to the end of the last step.

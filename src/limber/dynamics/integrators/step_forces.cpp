@@ -78,6 +78,10 @@ void apply_coupler(const Step& step, std::size_t c, SystemTerms& terms) {
   out.response = joints::evaluate_over_step(step.model.couplers[c].law, motion,
                                             step.begin.memory[c], step.times);
   out.response.wrench *= 2.0;
+  if (out.ideal >= 0) {
+    terms.constraints[index(out.ideal)] =
+        joints::find_constraint_gap(step.model.couplers[c].law, motion.end);
+  }
   add_pair(step, static_cast<CouplerIndex>(c), 0.5 * out.applied, terms);
 }
 

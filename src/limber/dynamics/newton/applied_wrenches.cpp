@@ -2,6 +2,7 @@
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -38,6 +39,18 @@ void set_applied(const VectorX& wrenches, SystemTerms& terms) {
   }
   for (std::size_t i = 0; i < terms.transmissions.size(); ++i) {
     terms.transmissions[i].applied = wrenches[row_of_transmission(terms, i)];
+  }
+}
+
+void store_constraint_wrenches(const SystemTerms& terms, double rows,
+                               SystemState& state) {
+  for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
+    const CouplerTerms& coupler = terms.couplers[c];
+    if (coupler.ideal < 0) continue;
+    const Matrix6& held = terms.constraints[index(coupler.ideal)].directions;
+    // The law's wrench has that of the last step.
+    state.memory[c].constraint_wrench +=
+        held * (coupler.applied - coupler.response.wrench) / rows;
   }
 }
 

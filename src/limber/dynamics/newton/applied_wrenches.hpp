@@ -16,6 +16,11 @@ void get_applied(const SystemTerms& terms, VectorX& wrenches);
 
 void set_applied(const VectorX& wrenches, SystemTerms& terms);
 
+/// Stores what holds ideal joints as their constraint wrenches.
+/// @param rows sum of how many ends of a step the wrenches of `terms` are
+void store_constraint_wrenches(const SystemTerms& terms, double rows,
+                               SystemState& state);
+
 /// @param increments of NewtonMatrix @param fraction of them that is added [-]
 void add_to_applied(const std::vector<Vector6>& increments, SystemTerms& terms,
                     double fraction = 1.0);

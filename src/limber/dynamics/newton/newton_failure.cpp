@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/newton/link_rows.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -81,6 +82,7 @@ std::string describe_coupler(const NewtonFailure& f) {
   double largest = 0.0;
   std::size_t link = links;
   for (std::size_t i = 0; i < links; ++i) {
+    if (find_constraint(f.terms, i) != nullptr) continue;  // no force
     const double gap = NewtonMatrix::find_gap(f.terms, i).norm();
     if (gap > largest) {
       largest = gap;

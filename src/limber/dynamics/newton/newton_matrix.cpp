@@ -10,7 +10,6 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/kernels/column_kernels.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
-#include "limber/dynamics/newton/free_rows.hpp"
 #include "limber/dynamics/newton/link_rows.hpp"
 
 namespace limber::dynamics {
@@ -29,6 +28,7 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   const std::size_t links = couplers_ + model.transmissions.size();
   scaled_stiffness_.resize(links);
   rows_.resize(links);
+  yields_.resize(links);
   wrenches_.resize(links);
   gaps_.resize(links);
   graph_.links = static_cast<int>(links);
@@ -69,6 +69,16 @@ void NewtonMatrix::finish_graph(const SystemModel& model) {
   graph_.links_of_body.resize(ends_of_body_.size());
   for (const End& end : ends_) {
     graph_.links_of_body[index(end.body)].push_back(end.link);
+  }
+  graph_.ideal.resize(graph_.grounded.size(), false);
+  for (std::size_t c = 0; c < couplers_; ++c) {
+    graph_.ideal[c] = joints::is_ideal(model.couplers[c].law);
+  }
+  graph_.anchored = graph_.grounded;
+  for (const End& end : ends_) {
+    if (!model.bodies[index(end.body)].has_rigid_motion()) {
+      graph_.anchored[index(end.link)] = true;
+    }
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -165,18 +175,19 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   for (const RetainedUnknowns& retained : plan_.retained) {
     if (retained.precedes_links) add_compliances(retained);
   }
-  // Rows become T (I + K A), T a rotation scaled to the size of each row.
+  // Rows become T (E + K A), T a rotation scaled to the size of each row, E the
+  // identity or, in constrained directions, zero.
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Matrix6 A = compliances_[i] +
                       plan_.lu.block(static_cast<int>(i), static_cast<int>(i));
     compliances_[i].setZero();
-    Matrix6 K = find_link_stiffness(terms, i, c.velocity);
-    const Matrix6 rotation = separate_free_rows(K);
+    const LinkRows link = find_link_rows(terms, i, c.velocity);
     const Vector6 scale =
-        (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
+        (link.yields + (link.stiffness * A).cwiseAbs().rowwise().maxCoeff())
             .cwiseInverse();
-    rows_[i] = scale.asDiagonal() * rotation;
-    scaled_stiffness_[i] = scale.asDiagonal() * K;
+    rows_[i] = scale.asDiagonal() * link.rotation;
+    yields_[i] = link.yields;
+    scaled_stiffness_[i] = scale.asDiagonal() * link.stiffness;
   }
   for (const RetainedUnknowns& retained : plan_.retained)
     assemble_retained(retained);
@@ -187,7 +198,7 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
     plan_.lu.scale_row(row, scaled_stiffness_[i]);
-    plan_.lu.block(row, row) += rows_[i];
+    plan_.lu.block(row, row) += yields_[i].asDiagonal() * rows_[i];
   }
 }
 
@@ -289,7 +300,10 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
 Vector6 NewtonMatrix::find_gap(const SystemTerms& terms, std::size_t link) {
   if (link < terms.couplers.size()) {
     const CouplerTerms& coupler = terms.couplers[link];
-    return coupler.response.wrench - coupler.applied;
+    const Vector6 gap = coupler.response.wrench - coupler.applied;
+    const joints::ConstraintGap* constraint = find_constraint(terms, link);
+    if (constraint == nullptr) return gap;
+    return constraint->gap + remove_constrained(*constraint, gap);
   }
   const TransmissionTerms& t =
       terms.transmissions[link - terms.couplers.size()];

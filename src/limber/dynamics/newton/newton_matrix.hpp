@@ -36,7 +36,9 @@ namespace limber::dynamics {
 ///            are, before all couplers, bodies of pairs that have points: their
 ///            tangent (PairTangents) joins both bodies' blocks. A transmission
 ///            is a coupler with any number of ends and one unknown, the first
-///            of six; its other five rows are the identity.
+///            of six; its other five rows are the identity. In constrained
+///            directions of an ideal joint that limit itself is the row,
+///            0 = s_c - sum_b G_cb x_b with minus the deflection as s_c.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
 /// Limits     neglects what ResidualDerivative adds: geometric stiffness of
 ///            couplers and loads, and derivatives of inertial forces by modes
@@ -85,7 +87,8 @@ class NewtonMatrix {
   /// Number of solves since the last call.
   [[nodiscard]] long take_solves() { return std::exchange(solves_, 0); }
 
-  /// The law's wrench less the acting one: s of the equation.
+  /// The law's wrench less the acting one, minus the deflection in constrained
+  /// directions of an ideal joint: s of the equation.
   [[nodiscard]] static Vector6 find_gap(const SystemTerms& terms,
                                         std::size_t link);
 
@@ -143,6 +146,7 @@ class NewtonMatrix {
   std::vector<std::vector<int>> ends_of_body_;
   std::size_t couplers_ = 0;
   std::vector<Matrix6> rows_;              // T: rotated and scaled, per link
+  std::vector<Vector6> yields_;            // E, on the rows of T
   std::vector<Matrix6> scaled_stiffness_;  // T K
   std::vector<Vector6> wrenches_;
   std::vector<Vector6> gaps_;

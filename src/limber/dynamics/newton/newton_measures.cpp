@@ -8,6 +8,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/newton/link_rows.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -126,6 +127,10 @@ void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,
     rate << v, -v, v, -w, w, w;
     gaps[c] = (response.stiffness + velocity * response.damping) * position +
               response.damping * rate;
+    if (const auto* constraint = find_constraint(terms, c)) {
+      gaps[c] = remove_constrained(*constraint, gaps[c]) +
+                constraint->directions * position;
+    }
   }
   for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
     const TransmissionTerms& t = terms.transmissions[i];

@@ -8,6 +8,7 @@
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/bodies/body_increment.hpp"
 #include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/newton/link_rows.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -300,6 +301,9 @@ void ResidualDerivative::change_couplers(const VectorX& x, VectorX& r,
                 r);
     laws[c] = -terms.response.damping *
               (motions_[c].velocity - c_.velocity * motions_[c].position);
+    if (const auto* constraint = find_constraint(*terms_, c)) {
+      laws[c] = remove_constrained(*constraint, laws[c]);
+    }
   }
   for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
     const TransmissionTerms& terms = terms_->transmissions[i];

@@ -38,6 +38,7 @@ class HubChoice {
     }
     int parent = -1;
     if (graph_.moves[index(body)]) {
+      if (needs_pivots(links)) return;
       const std::map<int, int> sharing = count_shared(links);
       if (!sharing.empty()) {
         const std::optional<int> chosen = choose_parent(sharing);
@@ -57,6 +58,15 @@ class HubChoice {
   std::vector<RetainedBody> retained;
 
  private:
+  // Whether one of the links is an ideal joint of which no other end moves and
+  // is eliminated.
+  [[nodiscard]] bool needs_pivots(const std::vector<int>& links) const {
+    return std::any_of(links.begin(), links.end(), [&](int link) {
+      return graph_.ideal[index(link)] && (graph_.anchored[index(link)] ||
+                                           retained_of_link_.count(link) > 0);
+    });
+  }
+
   // Retained bodies that the links end on, with how many of them.
   [[nodiscard]] std::map<int, int> count_shared(
       const std::vector<int>& links) const {

@@ -13,6 +13,8 @@ struct LinkGraph {
   std::vector<int> sizes;      ///< of each body: rigid motion and modes
   std::vector<bool> moves;     ///< whether the body has rigid motion
   std::vector<bool> grounded;  ///< whether the link ends in the world, too
+  std::vector<bool> ideal;     ///< whether it is an ideal joint
+  std::vector<bool> anchored;  ///< whether one of its ends does not move
 };
 
 /// A body with so many links that NewtonMatrix keeps its increments as
@@ -28,7 +30,9 @@ struct RetainedBody {
 /// blocks. Two retained bodies that share links are expressed relative to each
 /// other, or the stiffness between them would lose their inertia to round-off:
 /// one is the parent of the other, or they have a common ancestor. A body that
-/// shares links with retained bodies of two such trees is eliminated.
+/// shares links with retained bodies of two such trees is eliminated. So is one
+/// of an ideal joint whose other end is retained or does not move: its rows
+/// have no other pivots.
 /// @returns the one with most links first
 [[nodiscard]] std::vector<RetainedBody> choose_retained_bodies(
     const LinkGraph& graph);

@@ -132,6 +132,13 @@ void check_settings(const SystemModel& model, const SystemState& state,
   if (!(settings.newton_tolerance >= 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance must be >= 0, newton_iterations > 0");
   }
+  for (const Coupler& coupler : model.couplers) {
+    if (traits.takes_ideal_joints || !joints::is_ideal(coupler.law)) continue;
+    refuse(
+        fmt::format("joint '{}' is ideal, which {} does not integrate; use {}",
+                    coupler.name, traits.name,
+                    name_those(&IntegratorTraits::takes_ideal_joints)));
+  }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (traits.takes_nodes || has_dense_block(model, b)) continue;
     refuse(fmt::format(

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -104,11 +105,22 @@ joints::JointParameters find_joint_parameters(const CouplerOptions& options,
                       flexibility(3), reduce(side_F.inertia, side_M.inertia),
                       load.moment / kRigidFraction, rigid_frequency);
   joints::JointParameters parameters;
+  parameters.free_damping = options.free_damping.value_or(0.0);
+  if (options.is_ideal.value_or(false)) {
+    if (options.is_elastic()) {
+      throw InputError(
+          "an ideal joint does not deflect, so it has no stiffness and no "
+          "damping but that of free directions");
+    }
+    parameters.is_ideal = true;
+    parameters.translational_stiffness = kIdealRatio * translation.stiffness;
+    parameters.rotational_stiffness = kIdealRatio * rotation.stiffness;
+    return parameters;
+  }
   parameters.translational_stiffness = translation.stiffness;
   parameters.rotational_stiffness = rotation.stiffness;
   parameters.translational_damping = translation.damping;
   parameters.rotational_damping = rotation.damping;
-  parameters.free_damping = options.free_damping.value_or(0.0);
   return parameters;
 }
 

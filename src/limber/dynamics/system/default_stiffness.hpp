@@ -17,6 +17,15 @@ struct CouplerOptions {
   std::optional<double> translational_damping{};    ///< [N s/m]
   std::optional<double> rotational_damping{};       ///< [N m s/rad]
   std::optional<double> free_damping{};             ///< [N s/m or N m s/rad]
+  /// Whether constrained directions do not deflect; they then have neither
+  /// stiffness nor damping. Default: false.
+  std::optional<bool> is_ideal{};
+
+  /// Whether a stiffness or damping of constrained directions is given.
+  [[nodiscard]] bool is_elastic() const {
+    return translational_stiffness || rotational_stiffness ||
+           translational_damping || rotational_damping;
+  }
 };
 
 /// One side of a coupler.
@@ -44,6 +53,9 @@ struct CarriedLoad {
 /// Stiffness relative to the stiffer side's interface, in the direction in
 /// which that is stiffest [-].
 inline constexpr double kStiffnessRatio = 200.0;
+/// Of an ideal joint, relative to a default stiffness [-]: deflections differ
+/// by 5e-7 of those of the stiffer side.
+inline constexpr double kIdealRatio = 1e4;
 /// Natural frequency of two rigid sides on their coupler [Hz].
 inline constexpr double kRigidFrequency = 2e4;
 /// The same where the frequency is bounded by an explicit scheme's step, and
@@ -76,6 +88,9 @@ inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 /// with zeta = kRigidDampingRatio for the latter k, else kDampingRatio.
 /// A free direction has no damping unless it is given. The flexibility
 /// is used at every fidelity, so that a change of level changes nothing else.
+/// An ideal joint has kIdealRatio times the default k, for analyses that make a
+/// stiff joint of it.
+/// @throws InputError for an ideal joint with a stiffness or damping.
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,
     const CouplerSide& side_M, const CarriedLoad& load = {},

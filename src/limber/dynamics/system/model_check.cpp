@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -31,6 +32,7 @@ class ModelCheck {
     check_full_bodies();
     for (const Attachment& attachment : model_.attachments) check(attachment);
     for (const Coupler& coupler : model_.couplers) check(coupler);
+    if (problems_.empty()) check_ideal_joints();
     for (const Transmission& transmission : model_.transmissions) {
       check(transmission);
     }
@@ -162,6 +164,28 @@ class ModelCheck {
                 model_.attachments[index(coupler.frame_M)].body,
             "coupler", coupler.name, "both of its ends are on the same body");
     check_inputs("coupler", coupler.name, joints::find_inputs(coupler.law));
+  }
+
+  // Of a loop of ideal joints the forces would not be determined.
+  void check_ideal_joints() {
+    std::vector<std::size_t> root_of(model_.bodies.size() + 1);
+    std::iota(root_of.begin(), root_of.end(), std::size_t{0});
+    const auto find_root = [&](AttachmentIndex frame) {
+      const BodyIndex b = model_.attachments[index(frame)].body;
+      std::size_t i = b == kWorld || model_.bodies[index(b)].clamped
+                          ? model_.bodies.size()
+                          : index(b);
+      while (root_of[i] != i) i = root_of[i];
+      return i;
+    };
+    for (const Coupler& coupler : model_.couplers) {
+      if (!joints::is_ideal(coupler.law)) continue;
+      const std::size_t F = find_root(coupler.frame_F);
+      const std::size_t M = find_root(coupler.frame_M);
+      require(F != M, "joint", coupler.name,
+              "it closes a loop of ideal joints; give it a stiffness");
+      root_of[F] = M;
+    }
   }
 
   void check(const Transmission& transmission) {

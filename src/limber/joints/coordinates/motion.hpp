@@ -38,6 +38,15 @@ struct ConstraintStiffness {
   double rotational = 0.0;     ///< kr [N m/rad]
 };
 
+/// Where a joint's constrained directions are to go, as for CouplerResponse of
+/// unit stiffness there.
+struct ConstraintGap {
+  /// Projects increments onto the constrained directions, to first order in
+  /// the deflection [-].
+  Matrix6 directions = Matrix6::Zero();
+  Vector6 gap = Vector6::Zero();  ///< minus the deflection [m, rad]
+};
+
 /// Deflection in the constrained directions.
 struct ConstraintDeflection {
   double distance = 0.0;  ///< [m]

@@ -87,9 +87,9 @@ bool needs_fixed_base(const std::string& who, const Robot& robot,
   return true;
 }
 
-Robot read_only_robot(Scenario& scenario,
-                      const std::vector<RobotSetting>& settings,
-                      KnownRobots* known) {
+Robot read_and_fix_robot(Scenario& scenario,
+                         const std::vector<RobotSetting>& settings,
+                         KnownRobots* known) {
   Robot robot = read_once(scenario.robot, settings, scenario.urdf, known);
   if (!needs_fixed_base("[robot]", robot, scenario.robot_base,
                         scenario.warnings)) {
@@ -105,6 +105,14 @@ Robot read_only_robot(Scenario& scenario,
   return robot;
 }
 
+Robot read_only_robot(Scenario& scenario,
+                      const std::vector<RobotSetting>& settings,
+                      KnownRobots* known) {
+  Robot robot = read_and_fix_robot(scenario, settings, known);
+  if (scenario.robot_joint == JointModel::stiff) return robot;
+  return make_joints_ideal(std::move(robot));
+}
+
 /// The file's robot, or none and a problem.
 std::vector<NamedRobot> read_named(const RobotSpec& spec,
                                    const std::vector<RobotSetting>& settings,
@@ -118,6 +126,10 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec,
   } catch (const InputError& error) {
     problems.add(error, 0);
     return {};
+  }
+  if (spec.joint == JointModel::ideal) {
+    named.robot = make_joints_ideal(std::move(named.robot));
+    named.has_ideal_base = true;
   }
   named.is_fixed = needs_fixed_base(fmt::format("[[robot]] '{}':", spec.name),
                                     named.robot, spec.base, warnings);

@@ -127,7 +127,7 @@ dynamics::SystemModel without_dry_friction(dynamics::SystemModel model) {
       element.law = without_dry(element.law);
     }
     coupler.law = joints::Joint(parameters.constraint, parameters.coordinates,
-                                parameters.elements);
+                                parameters.elements, parameters.is_ideal);
   }
   for (dynamics::Transmission& line : model.transmissions) {
     for (joints::ScalarLaw& law : line.laws) law = without_dry(law);

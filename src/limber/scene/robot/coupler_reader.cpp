@@ -139,6 +139,12 @@ void read_coupler(XmlElement& element, Joint& joint) {
   joint.coupler = read_options(element);
   joint.coupler.free_damping = element.number("free_damping", kNonNegative);
   if (!joint.coupler.free_damping) joint.coupler.free_damping = damping;
+  joint.coupler.is_ideal = element.boolean("ideal");
+  if (joint.coupler.is_ideal == true && joint.coupler.is_elastic()) {
+    element.fail(
+        "an ideal joint does not deflect, so it has no stiffness and no "
+        "damping but free_damping; remove them, or ideal");
+  }
   ActionReader actions(joint.kind, joint.actions);
   element.read_children(actions.readers());
 }

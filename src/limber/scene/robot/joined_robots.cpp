@@ -97,6 +97,7 @@ void add_robot(const NamedRobot& source, Robot& joined) {
                   : joints::JointKind::floating;
   base.child = first;
   base.X_PJ = source.X_WR;
+  base.coupler.is_ideal = source.has_ideal_base;
   joined.joints.push_back(base);
   for (Joint& joint : robot.joints) {
     joint.parent += first;
@@ -148,6 +149,14 @@ Robot fix_base(Robot robot, const Pose& X_WR) {
   world.name = "world";
   robot.links.insert(robot.links.begin(), world);
   robot.joints.insert(robot.joints.begin(), base);
+  return robot;
+}
+
+Robot make_joints_ideal(Robot robot) {
+  for (Joint& joint : robot.joints) {
+    CouplerOptions& options = joint.coupler;
+    if (!options.is_ideal && !options.is_elastic()) options.is_ideal = true;
+  }
   return robot;
 }
 

@@ -13,8 +13,9 @@ namespace limber::scene {
 struct NamedRobot {
   std::string name;  ///< unique, without a dot
   Robot robot;
-  Pose X_WR;              ///< of its root link at the start
-  bool is_fixed = false;  ///< to the world, there
+  Pose X_WR;                    ///< of its root link at the start
+  bool is_fixed = false;        ///< to the world, there
+  bool has_ideal_base = false;  ///< whether its joint to the world is ideal
 };
 
 /// Whether a robot is fixed to the world: its root link represents the world,
@@ -26,6 +27,10 @@ struct NamedRobot {
 /// @throws InputError if the root link is flexible, or another link is called
 /// "world".
 [[nodiscard]] Robot fix_base(Robot robot, const Pose& X_WR);
+
+/// The robot with ideal joints in place of those whose stiffness its file
+/// leaves open.
+[[nodiscard]] Robot make_joints_ideal(Robot robot);
 
 /// One tree of all robots: its root is the world, from which a joint with the
 /// robot's name leads to the robot's root link, a fixed one if the robot is

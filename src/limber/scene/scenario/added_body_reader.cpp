@@ -155,6 +155,13 @@ std::optional<RobotBase> read_base(TomlTable& table) {
       {});
 }
 
+JointModel read_joint_model(TomlTable& table) {
+  return read_choice<JointModel>(
+      table, "joint",
+      {{"stiff", JointModel::stiff}, {"ideal", JointModel::ideal}},
+      JointModel::stiff);
+}
+
 RobotSpec read_placed_robot(TomlTable& table,
                             const std::filesystem::path& folder) {
   RobotSpec robot;
@@ -170,6 +177,7 @@ RobotSpec read_placed_robot(TomlTable& table,
   robot.file = (folder / table.required_text("file")).lexically_normal();
   robot.start = read_body_start(table);
   robot.base = read_base(table);
+  robot.joint = read_joint_model(table);
   return robot;
 }
 

@@ -24,12 +24,17 @@ struct BodyStart {
 /// How a robot's root link is held at the start and after it.
 enum class RobotBase { free, fixed };
 
+/// Whether the constrained directions of a robot's joints deflect, where its
+/// file does not tell: by default stiffnesses, or not.
+enum class JointModel { stiff, ideal };
+
 /// One of several robots.
 struct RobotSpec {
   std::string name;
   std::filesystem::path file;          ///< URDF
   BodyStart start;                     ///< of its root link
   std::optional<RobotBase> base = {};  ///< none: as its file has it
+  JointModel joint = JointModel::stiff;
 };
 
 /// A free rigid solid sphere; its origin is its centre.

@@ -227,8 +227,9 @@ struct Scenario {
   std::filesystem::path file;
   std::filesystem::path robot;  ///< its only one; empty if there are several
   std::optional<RobotBase> robot_base;  ///< none: as its file has it
-  std::vector<RobotSpec> robots;        ///< in its place
-  RobotOptions urdf;                    ///< how their files are read
+  JointModel robot_joint = JointModel::stiff;
+  std::vector<RobotSpec> robots;  ///< in its place
+  RobotOptions urdf;              ///< how their files are read
   dynamics::SimulationSettings settings;
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;

@@ -325,6 +325,7 @@ void read_robots(TomlTable& root, Scenario& scenario) {
     TomlTable robot(*root.table("robot"), "robot", root.problems());
     scenario.robot = (folder / robot.required_text("file")).lexically_normal();
     scenario.robot_base = read_base(robot);
+    scenario.robot_joint = read_joint_model(robot);
     robot.finish();
   } else if (const auto file = root.text("robot")) {
     scenario.robot = (folder / *file).lexically_normal();

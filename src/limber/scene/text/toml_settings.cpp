@@ -254,7 +254,7 @@ namespace {
 /// Whether a path names a key of [robot].
 bool is_base(const std::vector<std::string>& parts) {
   return parts.size() == 2 && parts[0] == "robot" &&
-         (parts[1] == "base" || parts[1] == "file");
+         (parts[1] == "base" || parts[1] == "file" || parts[1] == "joint");
 }
 
 /// Makes `robot = "FILE"` a table for a setting of its base.
