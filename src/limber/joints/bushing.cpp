@@ -211,6 +211,22 @@ ConstraintStiffness find_constraint_stiffness(const Bushing& constraint) {
           find_largest(constraint.parameters().rotational_stiffness)};
 }
 
+ConstraintGap find_constraint_gap(const Bushing& constraint,
+                                  const RelativeMotion& motion) {
+  const Bushing::Parameters& p = constraint.parameters();
+  const auto [kt, kr] = find_constraint_stiffness(constraint);
+  ConstraintGap gap;
+  auto translation = gap.directions.topLeftCorner<3, 3>();
+  auto rotation = gap.directions.bottomRightCorner<3, 3>();
+  if (kt > 0.0) translation = p.translational_stiffness / kt;
+  if (kr > 0.0) rotation = p.rotational_stiffness / kr;
+  const Vector6 wrench =
+      constraint.evaluate({motion.R_FM, motion.p_FM_F}).wrench;
+  if (kt > 0.0) gap.gap.head<3>() = wrench.head<3>() / kt;
+  if (kr > 0.0) gap.gap.tail<3>() = wrench.tail<3>() / kr;
+  return gap;
+}
+
 ConstraintDeflection find_deflection(const Bushing& constraint,
                                      const ConstraintStiffness& stiffness,
                                      const RelativeMotion& motion) {

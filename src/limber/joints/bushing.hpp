@@ -115,6 +115,10 @@ constexpr auto fields_of(const Bushing::Parameters*) {
 /// stiffest axis that stores the same energy.
 [[nodiscard]] ConstraintStiffness find_constraint_stiffness(
     const Bushing& constraint);
+/// Deflection p, sin(theta) e. @throws ContractError unless both stiffnesses
+/// are multiples of projections, uncoupled.
+[[nodiscard]] ConstraintGap find_constraint_gap(const Bushing& constraint,
+                                                const RelativeMotion& motion);
 [[nodiscard]] ConstraintDeflection find_deflection(
     const Bushing& constraint, const ConstraintStiffness& stiffness,
     const RelativeMotion& motion);

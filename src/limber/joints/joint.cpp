@@ -58,7 +58,7 @@ CouplerResponse Joint::evaluate(const RelativeMotion& motion,
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion); },
       acting_);
-  if (is_ideal()) response.wrench += memory.constraint_wrench;
+  if (is_ideal()) add_constraint_wrench(motion, memory, response);
   if (elements().empty()) return response;
   // Laws along one coordinate are summed.
   for (std::size_t i = 0; i < coordinates().size(); ++i) {
@@ -86,7 +86,7 @@ CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion.mean); },
       acting_);
-  if (is_ideal()) response.wrench += memory.constraint_wrench;
+  if (is_ideal()) add_constraint_wrench(motion.mean, memory, response);
   for (std::size_t e = 0; e < elements().size(); ++e) {
     const JointElement& element = elements()[e];
     const auto i = static_cast<std::size_t>(element.coordinate);
@@ -194,18 +194,17 @@ std::optional<ConstraintStiffness> Joint::find_constraint_stiffness() const {
       constraint());
 }
 
+void Joint::add_constraint_wrench(const RelativeMotion& motion,
+                                  const CouplerMemory& memory,
+                                  CouplerResponse& response) const {
+  response.wrench +=
+      find_constraint_gap(motion).directions * memory.constraint_wrench;
+}
+
 ConstraintGap Joint::find_constraint_gap(const RelativeMotion& motion) const {
   return std::visit(
       [&](const auto& constraint) {
-        const ConstraintStiffness stiffness =
-            joints::find_constraint_stiffness(constraint);
-        const auto invert = [](double k) { return k > 0.0 ? 1.0 / k : 0.0; };
-        Vector6 flexibility;
-        flexibility << Vector3::Constant(invert(stiffness.translational)),
-            Vector3::Constant(invert(stiffness.rotational));
-        const CouplerResponse response = constraint.evaluate(motion);
-        return ConstraintGap{flexibility.asDiagonal() * response.stiffness,
-                             flexibility.cwiseProduct(response.wrench)};
+        return joints::find_constraint_gap(constraint, motion);
       },
       constraint());
 }

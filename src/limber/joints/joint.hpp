@@ -97,6 +97,10 @@ class Joint : public WithoutTriggers {
                                        const EvaluationTime& now) const;
 
  private:
+  // Along the directions that are constrained at the motion.
+  void add_constraint_wrench(const RelativeMotion& motion,
+                             const CouplerMemory& memory,
+                             CouplerResponse& response) const;
   // An element, and the index of one of its switches.
   struct ElementSwitch {
     const JointElement& element;

@@ -85,6 +85,18 @@ ConstraintStiffness find_constraint_stiffness(
           constraint.parameters().rotational_stiffness};
 }
 
+ConstraintGap find_constraint_gap(const UniversalConstraint& constraint,
+                                  const RelativeMotion& motion) {
+  const Vector3& a = constraint.parameters().axis_F;
+  const Vector3 b = motion.R_FM * constraint.parameters().axis_M;
+  const Vector3 normal = b.cross(a).normalized();
+  ConstraintGap gap;
+  gap.directions.topLeftCorner<3, 3>().setIdentity();
+  gap.directions.bottomRightCorner<3, 3>() = normal * normal.transpose();
+  gap.gap << -motion.p_FM_F, -a.dot(b) * normal;
+  return gap;
+}
+
 ConstraintDeflection find_deflection(const UniversalConstraint& constraint,
                                      const ConstraintStiffness& stiffness,
                                      const RelativeMotion& motion) {

@@ -50,6 +50,9 @@ constexpr auto fields_of(const UniversalConstraint::Parameters*) {
 /// angle.
 [[nodiscard]] ConstraintStiffness find_constraint_stiffness(
     const UniversalConstraint& constraint);
+/// Deflection p and s, about the normal of both axes.
+[[nodiscard]] ConstraintGap find_constraint_gap(
+    const UniversalConstraint& constraint, const RelativeMotion& motion);
 [[nodiscard]] ConstraintDeflection find_deflection(
     const UniversalConstraint& constraint, const ConstraintStiffness& stiffness,
     const RelativeMotion& motion);

@@ -162,6 +162,15 @@ double find_fraction(double part, double whole) {
   return whole > 0.0 ? part / whole : 0.0;
 }
 
+void refuse_ideal_joints(const dynamics::SystemModel& model,
+                         const char* remedy) {
+  for (const dynamics::Coupler& coupler : model.couplers) {
+    if (!joints::is_ideal(coupler.law)) continue;
+    throw InputError(
+        fmt::format("joint '{}' is ideal: {}", coupler.name, remedy));
+  }
+}
+
 }  // namespace
 
 double find_relative(const Magnitudes& difference, const Magnitudes& motion) {
@@ -199,6 +208,10 @@ Agreement compare(const std::vector<Snapshot>& reference,
 Verification verify(const scene::Scene& scene, const scene::BuiltScene& built,
                     const VerificationOptions& options,
                     const Progress& progress) {
+  if (options.simbody.joints != JointModel::ideal) {
+    refuse_ideal_joints(built.model,
+                        "compare with Simbody's ideal joints (--joints ideal)");
+  }
   return Comparison(scene, built, options, progress).run(1.0, progress);
 }
 
@@ -212,6 +225,7 @@ StiffenedVerification verify_stiffened(const scene::Scene& scene,
     throw InputError(
         "stiffened joints are compared with ideal ones, no others");
   }
+  refuse_ideal_joints(built.model, "there is no stiffness to increase");
   const Comparison comparison(scene, built, options, progress);
   StiffenedVerification all;
   const double width = 1.0 / static_cast<double>(factors.size());

@@ -57,8 +57,8 @@ struct VerificationOptions {
 
 /// Runs the scene with Simbody once and with Limber at the step of its
 /// settings, half of it, and so on.
-/// @throws InputError if a link is not at level `rigid`; NumericalError as
-/// both simulations do.
+/// @throws InputError if a link is not at level `rigid`, or a joint is ideal
+/// here but not in Simbody; NumericalError as both simulations do.
 [[nodiscard]] Verification verify(const scene::Scene& scene,
                                   const scene::BuiltScene& built,
                                   const VerificationOptions& options,
@@ -73,8 +73,8 @@ struct StiffenedVerification {
 /// the other, against one Simbody run with ideal joints. Stops if Limber fails
 /// for the third factor or a later one.
 /// @throws InputError unless there are at least two factors, positive and
-/// increasing, or if joints other than ideal ones are requested; else as
-/// verify.
+/// increasing, if joints other than ideal ones are requested, or if one is
+/// ideal here; else as verify.
 [[nodiscard]] StiffenedVerification verify_stiffened(
     const scene::Scene& scene, const scene::BuiltScene& built,
     const std::vector<double>& factors, const VerificationOptions& options,

@@ -50,12 +50,16 @@ scene::BuiltScene build(const scene::Scene& scene,
   return built;
 }
 
-reference::JointModel find_joint_model(const VerifyOptions& options) {
+reference::JointModel find_joint_model(const VerifyOptions& options,
+                                       const dynamics::SystemModel& model) {
   if (!options.joints.empty()) {
     return reference::parse_joint_model(options.joints);
   }
-  return options.stiffen.empty() ? reference::JointModel::bushings
-                                 : reference::JointModel::ideal;
+  const bool is_ideal =
+      std::any_of(model.couplers.begin(), model.couplers.end(),
+                  [](const auto& c) { return joints::is_ideal(c.law); });
+  return options.stiffen.empty() && !is_ideal ? reference::JointModel::bushings
+                                              : reference::JointModel::ideal;
 }
 
 /// Where a report goes, if anywhere.
@@ -99,7 +103,6 @@ void verify(const VerifyOptions& options) {
   if (!options.out.empty()) folder.emplace(options.out);
   VerificationReport report;
   report.scenario = options.scenario;
-  report.options.simbody.joints = find_joint_model(options);
   report.options.simbody.accuracy = options.accuracy;
   report.options.refinements = options.refine;
   scene::Overrides overrides;
@@ -119,6 +122,7 @@ void verify(const VerifyOptions& options) {
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
   report.tolerance = built.settings.tolerance;
+  report.options.simbody.joints = find_joint_model(options, built.model);
   if (!options.stiffen.empty()) {
     stiffen(options, folder, scene, built, report);
     return;

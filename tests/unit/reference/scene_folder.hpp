@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -15,11 +16,13 @@ namespace limber::reference::test {
 class RigidScene {
  public:
   /// The scenario names the robot "robot.urdf".
-  RigidScene(const std::string& robot, const std::string& scenario) {
+  RigidScene(const std::string& robot, const std::string& scenario,
+             const std::vector<scene::Setting>& settings = {}) {
     std::ofstream(folder_.path() / "robot.urdf") << robot;
     std::ofstream(folder_.path() / "scene.toml")
         << "robot = \"robot.urdf\"\n" + scenario;
-    scene = scene::load_scene(folder_.path() / "scene.toml");
+    scene = scene::load_scene(folder_.path() / "scene.toml",
+                              {.settings = settings});
     built = scene::build_system(scene, {}, folder_.path());
   }
 

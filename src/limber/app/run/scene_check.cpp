@@ -88,10 +88,11 @@ void add_choices(const scene::Scene& scene, const scene::BuiltScene& built,
   }
   if (ideal > 0) {
     choices.push_back(fmt::format(
-        "{} of {} joints are ideal: they do not deflect in a run, and have "
-        "{:g} "
-        "times a default stiffness in statics, frequencies and linear models",
-        ideal, joints, dynamics::kIdealRatio));
+        "{} of {} joints are ideal: they do not deflect in a run; in statics, "
+        "frequencies and linear models they have {:g} times the stiffness of "
+        "a flexible side, or {:g} Hz of two rigid ones",
+        ideal, joints, dynamics::kIdealStiffnessRatio,
+        dynamics::kRigidFrequency));
   }
   if (unset > 0) {
     choices.push_back(fmt::format(

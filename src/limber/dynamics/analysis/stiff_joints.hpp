@@ -8,9 +8,9 @@
 namespace limber::dynamics {
 
 /// The model with stiff joints in place of ideal ones, for analyses whose
-/// unknowns are positions alone; none if it has no ideal joint. Deflections
-/// differ by about 1 / (kIdealRatio kStiffnessRatio) of those of the stiffer
-/// side, where the stiffness is a default.
+/// unknowns are positions alone; none if it has no ideal joint. Where their
+/// stiffness is a default, they add 1 / kIdealStiffnessRatio to the flexibility
+/// of the stiffer side.
 [[nodiscard]] std::optional<SystemModel> replace_ideal_joints(
     const SystemModel& model);
 

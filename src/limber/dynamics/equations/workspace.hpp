@@ -115,7 +115,7 @@ struct SystemTerms {
   std::vector<FullTerms> full;                ///< by both
   std::vector<AttachmentMotion> attachments;  ///< by calc_forces
   std::vector<CouplerTerms> couplers;         ///< by calc_forces
-  /// Of ideal joints; over a step, at its end; by calc_forces.
+  /// Of ideal joints; by calc_forces. Over a step the gap is that at its end.
   std::vector<joints::ConstraintGap> constraints;
   std::vector<TransmissionTerms> transmissions;  ///< by calc_forces
   PairTerms pairs;                               ///< by calc_forces

@@ -79,8 +79,13 @@ void apply_coupler(const Step& step, std::size_t c, SystemTerms& terms) {
                                             step.begin.memory[c], step.times);
   out.response.wrench *= 2.0;
   if (out.ideal >= 0) {
-    terms.constraints[index(out.ideal)] =
-        joints::find_constraint_gap(step.model.couplers[c].law, motion.end);
+    // Its wrench does no work along the mean directions if the end is where it
+    // should be, as the begin is.
+    joints::ConstraintGap& constraint = terms.constraints[index(out.ideal)];
+    const joints::CouplerLaw& law = step.model.couplers[c].law;
+    constraint = joints::find_constraint_gap(law, motion.mean);
+    constraint.gap = constraint.directions *
+                     joints::find_constraint_gap(law, motion.end).gap;
   }
   add_pair(step, static_cast<CouplerIndex>(c), 0.5 * out.applied, terms);
 }

@@ -47,10 +47,10 @@ void store_constraint_wrenches(const SystemTerms& terms, double rows,
   for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
     const CouplerTerms& coupler = terms.couplers[c];
     if (coupler.ideal < 0) continue;
-    const Matrix6& held = terms.constraints[index(coupler.ideal)].directions;
     // The law's wrench has that of the last step.
-    state.memory[c].constraint_wrench +=
-        held * (coupler.applied - coupler.response.wrench) / rows;
+    Vector6& wrench = state.memory[c].constraint_wrench;
+    wrench += (coupler.applied - coupler.response.wrench) / rows;
+    wrench = terms.constraints[index(coupler.ideal)].directions * wrench.eval();
   }
 }
 

@@ -312,6 +312,19 @@ Vector6 NewtonMatrix::find_gap(const SystemTerms& terms, std::size_t link) {
   return gap;
 }
 
+// Constrained directions may have changed since the factors were made: their
+// rows take deflections only, and the others forces only.
+Vector6 NewtonMatrix::rotate_gap(const SystemTerms& terms, std::size_t link,
+                                 const Vector6& gap) const {
+  const Matrix6& rotation = rows_[link];
+  const joints::ConstraintGap* constraint = find_constraint(terms, link);
+  if (constraint == nullptr) return rotation * gap;
+  const Vector6 deflection = constraint->directions * gap;
+  const Vector6& yields = yields_[link];
+  return yields.cwiseProduct(rotation * (gap - deflection)) +
+         (Vector6::Ones() - yields).cwiseProduct(rotation * deflection);
+}
+
 void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
                          const VectorX& residual, VectorX& increments) {
   for (std::size_t i = 0; i < gaps_.size(); ++i) gaps_[i] = find_gap(terms, i);
@@ -338,7 +351,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const Vector6 right =
-        rows_[i] * gaps[i] - scaled_stiffness_[i] * unknowns_[i];
+        rotate_gap(terms, i, gaps[i]) - scaled_stiffness_[i] * unknowns_[i];
     unknowns_[i] = right;
   }
   const auto for_kept = [&](const auto& visit) {

@@ -132,6 +132,8 @@ class NewtonMatrix {
   [[nodiscard]] bool is_retained(const End& end) const {
     return plan_.retained_of_body[static_cast<std::size_t>(end.body)] >= 0;
   }
+  [[nodiscard]] Vector6 rotate_gap(const SystemTerms& terms, std::size_t link,
+                                   const Vector6& gap) const;
   void assemble(const SystemModel& model, const SystemTerms& terms,
                 const SystemTerms& end_terms, const Coefficients& c);
   [[nodiscard]] Pose find_pose(const SystemTerms& terms, int body) const;

@@ -113,8 +113,13 @@ joints::JointParameters find_joint_parameters(const CouplerOptions& options,
           "damping but that of free directions");
     }
     parameters.is_ideal = true;
-    parameters.translational_stiffness = kIdealRatio * translation.stiffness;
-    parameters.rotational_stiffness = kIdealRatio * rotation.stiffness;
+    const auto stiffen = [&](double k, int first) {
+      return std::isfinite(flexibility(first))
+                 ? kIdealStiffnessRatio / kStiffnessRatio * k
+                 : k;
+    };
+    parameters.translational_stiffness = stiffen(translation.stiffness, 0);
+    parameters.rotational_stiffness = stiffen(rotation.stiffness, 3);
     return parameters;
   }
   parameters.translational_stiffness = translation.stiffness;

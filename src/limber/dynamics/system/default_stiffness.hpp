@@ -53,9 +53,8 @@ struct CarriedLoad {
 /// Stiffness relative to the stiffer side's interface, in the direction in
 /// which that is stiffest [-].
 inline constexpr double kStiffnessRatio = 200.0;
-/// Of an ideal joint, relative to a default stiffness [-]: deflections differ
-/// by 5e-7 of those of the stiffer side.
-inline constexpr double kIdealRatio = 1e4;
+/// The same of an ideal joint where a stiff one replaces it [-].
+inline constexpr double kIdealStiffnessRatio = 2e4;
 /// Natural frequency of two rigid sides on their coupler [Hz].
 inline constexpr double kRigidFrequency = 2e4;
 /// The same where the frequency is bounded by an explicit scheme's step, and
@@ -88,8 +87,8 @@ inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 /// with zeta = kRigidDampingRatio for the latter k, else kDampingRatio.
 /// A free direction has no damping unless it is given. The flexibility
 /// is used at every fidelity, so that a change of level changes nothing else.
-/// An ideal joint has kIdealRatio times the default k, for analyses that make a
-/// stiff joint of it.
+/// An ideal joint has no damping, and a k for analyses that make a stiff joint
+/// of it, with kIdealStiffnessRatio in place of kStiffnessRatio.
 /// @throws InputError for an ideal joint with a stiffness or damping.
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,

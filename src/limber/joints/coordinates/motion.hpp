@@ -38,11 +38,11 @@ struct ConstraintStiffness {
   double rotational = 0.0;     ///< kr [N m/rad]
 };
 
-/// Where a joint's constrained directions are to go, as for CouplerResponse of
-/// unit stiffness there.
+/// What keeps a joint from its constraint, as a CouplerResponse of unit
+/// stiffness in the constrained directions has it.
 struct ConstraintGap {
-  /// Projects increments onto the constrained directions, to first order in
-  /// the deflection [-].
+  /// Orthogonal projection of increments and wrenches onto the constrained
+  /// directions where the joint does not deflect [-].
   Matrix6 directions = Matrix6::Zero();
   Vector6 gap = Vector6::Zero();  ///< minus the deflection [m, rad]
 };

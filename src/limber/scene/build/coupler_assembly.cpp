@@ -182,9 +182,10 @@ std::optional<std::string> CouplerAssembly::describe_explicit_defaults() const {
 
 void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
                                 const AttachmentSite& M) {
-  const joints::JointParameters held =
-      find_joint_parameters(spec.coupler, F.side, M.side, spec.load,
-                            choose_rigid_frequency(spec.p_W));
+  const auto find_parameters = [&](const CouplerOptions& options) {
+    return find_joint_parameters(options, F.side, M.side, spec.load,
+                                 choose_rigid_frequency(spec.p_W));
+  };
   const auto coordinates =
       joints::find_coordinates(spec.kind, spec.axis, spec.second);
   std::vector<joints::JointElement> elements = make_elements(
@@ -196,16 +197,20 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
                           make_drive(drive, spec.max_effort, spec.max_speed)});
     });
   }
-  const joints::CouplerLaw law = joints::make_joint(
-      spec.kind, spec.axis, spec.second, held, std::move(elements));
+  const joints::CouplerLaw law =
+      joints::make_joint(spec.kind, spec.axis, spec.second,
+                         find_parameters(spec.coupler), std::move(elements));
   record_default(spec.name, spec.coupler, F, M,
                  joints::find_constraint_stiffness(law).value_or(
                      joints::ConstraintStiffness{}));
   const dynamics::CouplerIndex coupler = add_coupler(spec.name, law, F, M);
-  if (coordinates.size() == 1) {
-    geared_[spec.name] = {
-        coupler, find_constraint(coordinates[0], held), coordinates, {F, M}};
-  }
+  if (coordinates.size() != 1) return;
+  CouplerOptions stiff = spec.coupler;  // gears are, also between ideal joints
+  stiff.is_ideal.reset();
+  geared_[spec.name] = {coupler,
+                        find_constraint(coordinates[0], find_parameters(stiff)),
+                        coordinates,
+                        {F, M}};
 }
 
 void CouplerAssembly::add_joint(int i) {
