@@ -379,19 +379,15 @@ TEST(IdealJoints, HoldAPalmWithManyArmsToTheWorldAndInFreeFlight) {
   }
 }
 
-TEST(IdealJoints, StretchAPendulumOfFourRodsByNothingInItsEquilibrium) {
-  Chain chain = make_chain(4);
-  JointStates bent;
-  bent["hinge_0"] = {{1.5}, {}};
-  bent["hinge_2"] = {{0.05}, {}};
-  chain.state = make_state(chain.model, bent);
+TEST(IdealJoints, AreStiffInEquilibriaAndFrequencies) {
+  Chain chain = make_chain(2);
+  chain.state = make_state(chain.model, {{"hinge_0", {{1.5}, {}}}});
   const Equilibrium found =
       find_equilibrium(chain.model, chain.state, {.tolerance = 1e-10});
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double depth = kLength * (static_cast<double>(i) + 0.5);
-    EXPECT_LT((found.state.bodies[i].p_WB - Vector3(0, 0, -depth)).norm(),
-              1e-7);
-  }
+  EXPECT_LT((found.state.bodies[0].p_WB - Vector3(0, 0, -0.5 * kLength)).norm(),
+            1e-7);
+  EXPECT_LT((found.state.bodies[1].p_WB - Vector3(0, 0, -1.5 * kLength)).norm(),
+            1e-7);
   // Small swings of a rod on a pin.
   const Chain one = make_chain(1);
   SystemState hanging =
