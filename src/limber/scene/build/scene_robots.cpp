@@ -2,6 +2,7 @@
 #include "limber/scene/build/scene_robots.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <set>
@@ -87,6 +88,24 @@ bool needs_fixed_base(const std::string& who, const Robot& robot,
   return true;
 }
 
+/// The robot with ideal joints, and a warning of those that its file makes
+/// elastic.
+Robot make_ideal(const std::string& who, Robot robot,
+                 std::vector<std::string>& warnings) {
+  robot = make_joints_ideal(std::move(robot));
+  std::vector<std::string> elastic;
+  for (const Joint& joint : robot.joints) {
+    if (joint.coupler.is_elastic()) elastic.push_back(joint.name);
+  }
+  if (!elastic.empty()) {
+    warnings.push_back(fmt::format(
+        "{} joint = \"ideal\" leaves {} of {} joints elastic, whose stiffness "
+        "or damping the robot's file gives: '{}'",
+        who, elastic.size(), robot.joints.size(), fmt::join(elastic, "', '")));
+  }
+  return robot;
+}
+
 Robot read_and_fix_robot(Scenario& scenario,
                          const std::vector<RobotSetting>& settings,
                          KnownRobots* known) {
@@ -110,7 +129,7 @@ Robot read_only_robot(Scenario& scenario,
                       KnownRobots* known) {
   Robot robot = read_and_fix_robot(scenario, settings, known);
   if (scenario.robot_joint == JointModel::stiff) return robot;
-  return make_joints_ideal(std::move(robot));
+  return make_ideal("[robot]", std::move(robot), scenario.warnings);
 }
 
 /// The file's robot, or none and a problem.
@@ -127,12 +146,12 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec,
     problems.add(error, 0);
     return {};
   }
+  const std::string who = fmt::format("[[robot]] '{}':", spec.name);
   if (spec.joint == JointModel::ideal) {
-    named.robot = make_joints_ideal(std::move(named.robot));
+    named.robot = make_ideal(who, std::move(named.robot), warnings);
     named.has_ideal_base = true;
   }
-  named.is_fixed = needs_fixed_base(fmt::format("[[robot]] '{}':", spec.name),
-                                    named.robot, spec.base, warnings);
+  named.is_fixed = needs_fixed_base(who, named.robot, spec.base, warnings);
   if ((is_held(named.robot) || named.is_fixed) && is_moving(spec.start)) {
     problems.add(0, fmt::format("[[robot]] '{}' is held by the world; it has "
                                 "no velocity",
