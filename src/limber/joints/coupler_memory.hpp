@@ -28,14 +28,17 @@ struct CouplerMemory {
   std::array<SwitchMode, kMaxSwitches> switches{};
   LatchStatus latch = LatchStatus::open;
   Pose X_FM;  ///< rest pose of a closed latch [-], [m]
-  /// Of an ideal joint, that of its constraint over the last step, as
-  /// CouplerResponse::wrench [N, N m].
+  /// Of an ideal joint, that of its constraint, as CouplerResponse::wrench
+  /// [N, N m]; and its last solution, at a time within the last step.
   Vector6 constraint_wrench = Vector6::Zero();
+  Vector6 solved_wrench = Vector6::Zero();
+  double solved_time = -kInfinity;  ///< [s]
 };
 
 constexpr auto fields_of(const CouplerMemory*) {
   return list_fields("memory", "near [rad, m]", "switches", "latch", "X_FM",
-                     "constraint wrench [N, N m]");
+                     "constraint wrench [N, N m]", "solved wrench [N, N m]",
+                     "solved time [s]");
 }
 
 }  // namespace limber::joints

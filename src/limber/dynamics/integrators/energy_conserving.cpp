@@ -378,7 +378,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   flows_.clear();
   add_powers(mean_, h, flows_);
   set_work(flows_, result);
-  store_constraint_wrenches(mean_, 2.0, next_);
+  store_constraint_wrenches(mean_, 2.0, end - 0.5 * h, next_);
   keep_course(next_, h);
   std::swap(state, next_);
   return result;

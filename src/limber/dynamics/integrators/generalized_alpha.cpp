@@ -407,7 +407,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   plan_.finish_step(keeps, course_);
   work_.advance(state, next_, terms_, h, result);
   if (scale_) estimate_error(h, result);
-  store_constraint_wrenches(terms_, 1.0, next_);
+  store_constraint_wrenches(terms_, 1.0, end, next_);
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
   trend_step_ = h;

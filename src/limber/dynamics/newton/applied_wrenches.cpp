@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 
+#include <cmath>
+
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 
@@ -42,15 +44,26 @@ void set_applied(const VectorX& wrenches, SystemTerms& terms) {
   }
 }
 
-void store_constraint_wrenches(const SystemTerms& terms, double rows,
-                               SystemState& state) {
+void store_constraint_wrenches(const SystemTerms& terms, double ends,
+                               double time, SystemState& state) {
   for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
     const CouplerTerms& coupler = terms.couplers[c];
     if (coupler.ideal < 0) continue;
-    // The law's wrench has that of the last step.
-    Vector6& wrench = state.memory[c].constraint_wrench;
-    wrench += (coupler.applied - coupler.response.wrench) / rows;
-    wrench = terms.constraints[index(coupler.ideal)].directions * wrench.eval();
+    joints::CouplerMemory& memory = state.memory[c];
+    const Matrix6& held = terms.constraints[index(coupler.ideal)].directions;
+    // The law's wrench has that of the last state.
+    const Vector6 solved =
+        held * (memory.constraint_wrench +
+                (coupler.applied - coupler.response.wrench) / ends);
+    const double beyond = state.t - time;
+    const double between = time - memory.solved_time;
+    memory.constraint_wrench = solved;
+    if (beyond > 0.0 && beyond <= between && std::isfinite(between)) {
+      memory.constraint_wrench +=
+          beyond / between * (solved - memory.solved_wrench);
+    }
+    memory.solved_wrench = solved;
+    memory.solved_time = time;
   }
 }
 

@@ -16,10 +16,12 @@ void get_applied(const SystemTerms& terms, VectorX& wrenches);
 
 void set_applied(const VectorX& wrenches, SystemTerms& terms);
 
-/// Stores what holds ideal joints as their constraint wrenches.
-/// @param rows sum of how many ends of a step the wrenches of `terms` are
-void store_constraint_wrenches(const SystemTerms& terms, double rows,
-                               SystemState& state);
+/// Stores what holds ideal joints: the solution, and from it and the last one
+/// the wrench at the state, by a straight line.
+/// @param ends of a step that the wrenches of `terms` are the sum of
+/// @param time of their mean, up to the state's [s]
+void store_constraint_wrenches(const SystemTerms& terms, double ends,
+                               double time, SystemState& state);
 
 /// @param increments of NewtonMatrix @param fraction of them that is added [-]
 void add_to_applied(const std::vector<Vector6>& increments, SystemTerms& terms,
