@@ -147,17 +147,19 @@ Outcome Study::simulate(const Choice& choice) const {
 
 MatrixX find_deformation(const Outcome& outcome, int b) {
   MatrixX u = make_room(outcome, b);
+  const results::States& states = outcome.run.history.states;
   dynamics::calc_node_deformations(outcome.run.built.model,
                                    dynamics::BodyIndex(b),
-                                   outcome.run.history.states, u);
+                                   states.read(0, states.size()), u);
   return u;
 }
 
 MatrixX find_displacement(const Outcome& outcome, int b) {
   MatrixX u = make_room(outcome, b);
+  const results::States& states = outcome.run.history.states;
   dynamics::calc_node_displacements(
       outcome.run.built.model, dynamics::BodyIndex(b),
-      outcome.run.history.states, find_start(outcome, b), u);
+      states.read(0, states.size()), find_start(outcome, b), u);
   return u;
 }
 

@@ -54,7 +54,7 @@ py::tuple get_envelope(const py::object& self, py::ssize_t column) {
 /// A member of every energy balance.
 py::array get_energies(const py::object& self, const double* first,
                        py::ssize_t size) {
-  const auto& energies = run_of(self).run.history.energies;
+  const auto& energies = run_of(self).energies();
   constexpr py::ssize_t kStride =
       sizeof(dynamics::EnergyBalance) / sizeof(double);
   if (size == 1) return view_of(first, {std::ssize(energies)}, {kStride}, self);
@@ -63,7 +63,7 @@ py::array get_energies(const py::object& self, const double* first,
 
 py::dict get_energies(const py::object& self) {
   static_assert(sizeof(dynamics::EnergyBalance) % sizeof(double) == 0);
-  const auto& energies = run_of(self).run.history.energies;
+  const auto& energies = run_of(self).energies();
   static const dynamics::EnergyBalance none;
   const dynamics::EnergyBalance& e = energies.empty() ? none : energies.front();
   py::dict dict;

@@ -25,9 +25,10 @@ const Block& RecordedRun::probes() {
   const auto& history = run.history;
   const auto columns = static_cast<Eigen::Index>(history.columns.size());
   return gather(probes_, history.probe_rows.size(), columns,
-                [&](std::size_t i) {
-                  return Eigen::Map<const Eigen::RowVectorXd>(
-                      history.probe_rows[i].data(), columns);
+                [&](std::size_t i) -> Eigen::RowVectorXd {
+                  const std::vector<double> row = history.probe_rows[i];
+                  return Eigen::Map<const Eigen::RowVectorXd>(row.data(),
+                                                              columns);
                 });
 }
 
@@ -37,7 +38,8 @@ const Block& RecordedRun::motion() {
   return gather(motion_, run.history.states.size(), row.size(),
                 [&](std::size_t i) -> const Eigen::RowVectorXd& {
                   Eigen::Index at = 0;
-                  for (const auto& body : run.history.states[i].bodies) {
+                  const dynamics::SystemState state = run.history.states[i];
+                  for (const dynamics::BodyState& body : state.bodies) {
                     const Quaternion& quat = body.quat_WB;
                     row.segment<kBodyValues>(at) << body.p_WB.transpose(),
                         quat.w(), quat.x(), quat.y(), quat.z(),
@@ -51,13 +53,21 @@ const Block& RecordedRun::motion() {
 const Block& RecordedRun::eta() {
   return gather(
       eta_, run.history.states.size(), run.built.model.modal_count,
-      [&](std::size_t i) { return run.history.states[i].eta.transpose(); });
+      [&](std::size_t i) -> VectorX { return run.history.states[i].eta; });
 }
 
 const Block& RecordedRun::etadot() {
   return gather(
       etadot_, run.history.states.size(), run.built.model.modal_count,
-      [&](std::size_t i) { return run.history.states[i].etadot.transpose(); });
+      [&](std::size_t i) -> VectorX { return run.history.states[i].etadot; });
+}
+
+const std::vector<dynamics::EnergyBalance>& RecordedRun::energies() {
+  const auto& recorded = run.history.energies;
+  if (energies_.size() != recorded.size()) {
+    energies_ = recorded.read(0, recorded.size());
+  }
+  return energies_;
 }
 
 }  // namespace limber::python

@@ -4,15 +4,15 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "bindings.hpp"
 #include "limber/app/run/run_scene.hpp"
 
 namespace limber::python {
 
-/// A finished run, as NumPy sees it. Times and energies are where the run has
-/// recorded them; what it holds state by state is gathered once, when it is
-/// first asked for.
+/// A finished run, as NumPy sees it. What the run holds output by output, most
+/// of it in a file, is gathered in memory once, when it is first asked for.
 struct RecordedRun {
   using Block =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -30,12 +30,15 @@ struct RecordedRun {
   /// Outputs x modes of all bodies.
   const Block& eta();
   const Block& etadot();
+  /// One an output.
+  const std::vector<dynamics::EnergyBalance>& energies();
 
  private:
   Block probes_;
   Block motion_;
   Block eta_;
   Block etadot_;
+  std::vector<dynamics::EnergyBalance> energies_;
 };
 
 /// Values a body in RecordedRun::motion.

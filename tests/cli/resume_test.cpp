@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -138,6 +139,20 @@ TEST_F(KilledRunOfASled, IsReportedByInfo) {
   const CommandResult result = place_.limber("info out/checkpoint.bin");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("checkpoint"));
+}
+
+TEST_F(KilledRunOfASled, LeavesItsProbesUntilTheCheckpoint) {
+  ASSERT_EQ(place_.limber("export out/checkpoint.bin -o part.csv").status, 0);
+  ASSERT_EQ(
+      place_.limber("run s.toml --out whole --set time.duration=5").status, 0);
+  const std::string part = read_text(place_.folder() / "part.csv");
+  const std::string whole = read_text(place_.folder() / "whole/probes.csv");
+  EXPECT_GE(std::count(part.begin(), part.end(), '\n'), 4);
+  EXPECT_TRUE(whole.starts_with(part));
+  const CommandResult other =
+      place_.limber("export out/checkpoint.bin -o part.glb");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.errors, HasSubstr("of a checkpoint the probes are"));
 }
 
 // It starts far beyond linear elasticity, and swings.

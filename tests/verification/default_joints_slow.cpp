@@ -46,7 +46,7 @@ double find_static(const std::string& file, std::size_t column) {
   EXPECT_THAT(
       run.warnings,
       ::testing::Not(::testing::Contains(::testing::HasSubstr("joint '"))));
-  return run.history.probe_rows.at(0).at(column);
+  return run.history.probe_rows[0].at(column);
 }
 
 TEST(DefaultJoints, StretchAPulledRodByNoMoreThanAPercent) {

@@ -68,7 +68,7 @@ TEST(SteadyStates, OfAFreeBarPulledInItsOwnAxesIsHookesLaw) {
     const app::StaticRun run = app::find_static(
         scene::load_scene(kScenes / "bar_body.toml", overrides),
         dynamics::EquilibriumMethod::newton, cache(), {});
-    EXPECT_NEAR(run.history.probe_rows.at(0).at(0), 3.57143e-6, 1e-10);
+    EXPECT_NEAR(run.history.probe_rows[0].at(0), 3.57143e-6, 1e-10);
   }
 }
 

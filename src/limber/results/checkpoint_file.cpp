@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -110,37 +112,51 @@ std::vector<std::size_t> find_ends(const History& history,
           history.events.size()};
 }
 
-// The part between the ends.
-History cut(const History& history, const std::vector<std::size_t>& from,
-            const std::vector<std::size_t>& to) {
-  History part;
-  std::apply(
-      [&](const auto&... lists) {
-        std::size_t i = 0;
-        const auto copy = [&](const auto& list) {
-          const auto first = static_cast<std::ptrdiff_t>(from[i]);
-          const auto last = static_cast<std::ptrdiff_t>(to[i++]);
-          return std::decay_t<decltype(list)>(list.begin() + first,
-                                              list.begin() + last);
-        };
-        part = History{copy(lists)...};
-      },
-      tie_fields(history));
+// Elements between the ends.
+template <typename List>
+List cut(const List& list, std::size_t from, std::size_t to) {
+  List part;
+  for (std::size_t i = from; i < to; ++i) part.push_back(list[i]);
   return part;
 }
 
-template <typename Value>
-void move_to_end(std::vector<Value>& part, std::vector<Value>& all) {
-  all.insert(all.end(), std::make_move_iterator(part.begin()),
-             std::make_move_iterator(part.end()));
+History cut(const History& history, const std::vector<std::size_t>& from,
+            const std::vector<std::size_t>& to) {
+  return std::apply(
+      [&](const auto&... lists) {
+        std::size_t i = 0;
+        const auto copy = [&](const auto& list) {
+          const std::size_t k = i++;
+          return cut(list, from[k], to[k]);
+        };
+        return History{copy(lists)...};
+      },
+      tie_fields(history));
 }
 
-void move_to_end(History& part, History& all) {
+// The ends of at most some more elements of each list.
+std::vector<std::size_t> go_on(const std::vector<std::size_t>& from,
+                               const std::vector<std::size_t>& to) {
+  constexpr std::size_t kMost = 64;
+  std::vector<std::size_t> ends;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    ends.push_back(std::min(from[k] + kMost, to[k]));
+  }
+  return ends;
+}
+
+void append(const History& part, History& all) {
   auto parts = tie_fields(part);
   std::apply(
-      [&](auto&... lists) {
-        std::apply([&](auto&... ends) { (move_to_end(lists, ends), ...); },
-                   tie_fields(all));
+      [&](const auto&... lists) {
+        std::apply(
+            [&](auto&... ends) {
+              const auto add = [](const auto& list, auto& end) {
+                for (const auto& value : list) end.push_back(value);
+              };
+              (add(lists, ends), ...);
+            },
+            tie_fields(all));
       },
       parts);
 }
@@ -152,14 +168,18 @@ CheckpointRecord read_record(const std::filesystem::path& file) {
   record.log.replace_filename(std::filesystem::path(head.log).filename());
   record.part = {head.length, head.digest};
   record.run = {head.time, std::move(head.numbers)};
-  const std::vector<std::string> blocks = read_blocks(record.log, record.part);
-  if (blocks.empty()) throw InputError("its log is empty");
-  record.manifest = Manifest(blocks.front());
-  for (std::size_t i = 1; i < blocks.size(); ++i) {
-    auto entry = from_bytes<Entry>(blocks[i]);
-    move_to_end(entry.run, record.run.log);
-    move_to_end(entry.history, record.history);
-  }
+  bool is_first = true;
+  visit_blocks(record.log, record.part, [&](const std::string& block) {
+    if (std::exchange(is_first, false)) {
+      record.manifest = Manifest(block);
+      return;
+    }
+    const auto entry = from_bytes<Entry>(block);
+    record.run.log.insert(record.run.log.end(), entry.run.begin(),
+                          entry.run.end());
+    append(entry.history, record.history);
+  });
+  if (is_first) throw InputError("its log is empty");
   record.run.outputs = record.history.times.size();
   return record;
 }
@@ -198,7 +218,18 @@ void CheckpointWriter::write(const dynamics::Checkpoint& run,
   const bool is_first = !log_;
   if (is_first) begin_log();
   const std::vector<std::size_t> ends = find_ends(history, run.outputs);
-  log_->append(to_bytes(Entry{pending_, cut(history, ends_, ends)}));
+  // In blocks of bounded size, at least one.
+  std::vector<std::size_t> written = ends_;
+  bool is_begun = false;
+  log_->append([&]() -> std::optional<std::string> {
+    if (is_begun && written == ends) return std::nullopt;
+    const std::vector<std::size_t> until = go_on(written, ends);
+    const Entry entry{is_begun ? std::vector<double>() : pending_,
+                      cut(history, written, until)};
+    is_begun = true;
+    written = until;
+    return to_bytes(entry);
+  });
   pending_.clear();
   ends_ = ends;
   const FilePart part = log_->part();

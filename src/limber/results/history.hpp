@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/equations/energy.hpp"
+#include "limber/common/files/spilled_list.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/monitors/event.hpp"
-#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::results {
 
@@ -19,14 +19,23 @@ struct ProbeColumn {
   double error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Results of a run in memory: one entry per output time, except in `events`.
+/// States of a run at its outputs.
+using States = SpilledList<dynamics::SystemState>;
+
+/// Results of a run: one entry per output time, except in `events`. Only the
+/// times are in memory, whatever the number of outputs.
 struct History {
   std::vector<ProbeColumn> columns;
   std::vector<double> times;                    ///< [s]
-  std::vector<std::vector<double>> probe_rows;  ///< [time][column]
-  std::vector<dynamics::SystemState> states;
-  std::vector<dynamics::EnergyBalance> energies;
+  SpilledList<std::vector<double>> probe_rows;  ///< [time][column]
+  States states;
+  SpilledList<dynamics::EnergyBalance> energies;
   std::vector<dynamics::Event> events;  ///< sorted by time
 };
+
+/// Indices of the outputs, of so many, that a curve is drawn through: all, or
+/// every k-th and the last, since more than some thousand are
+/// indistinguishable in a picture.
+[[nodiscard]] std::vector<std::size_t> list_drawn_outputs(std::size_t count);
 
 }  // namespace limber::results

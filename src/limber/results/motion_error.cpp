@@ -183,15 +183,13 @@ class Comparer {
       u -= u_ref;
       field.difference.segment(at, columns) = u.colwise().squaredNorm();
     };
-    const auto part = [&](const Motion& motion) {
-      return motion.states.subspan(first, count);
-    };
-    calc_node_displacements(motion_.model, own_, part(motion_), start_, u);
-    calc_node_displacements(reference_.model, body_, part(reference_), start_,
-                            u_ref);
+    const std::vector<SystemState> own = motion_.states.read(first, count);
+    const std::vector<SystemState> other = reference_.states.read(first, count);
+    calc_node_displacements(motion_.model, own_, own, start_, u);
+    calc_node_displacements(reference_.model, body_, other, start_, u_ref);
     take(fields_.displacement);
-    calc_node_deformations(motion_.model, own_, part(motion_), u);
-    calc_node_deformations(reference_.model, body_, part(reference_), u_ref);
+    calc_node_deformations(motion_.model, own_, own, u);
+    calc_node_deformations(reference_.model, body_, other, u_ref);
     take(fields_.deformation);
   }
 
@@ -240,12 +238,12 @@ class LinkNodes {
   [[nodiscard]] MatrixX find_displacements(std::size_t first,
                                            std::size_t count) const {
     MatrixX u(rows_, static_cast<Eigen::Index>(count));
+    const std::vector<SystemState> states = motion_.states.read(first, count);
     Eigen::Index from = 0;
     for (const Part& part : parts_) {
       if (part.rows > 0) {
-        calc_node_displacements(motion_.model, part.body,
-                                motion_.states.subspan(first, count),
-                                part.start, u.middleRows(from, part.rows));
+        calc_node_displacements(motion_.model, part.body, states, part.start,
+                                u.middleRows(from, part.rows));
       }
       from += part.rows;
     }

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "limber/dynamics/system/system_model.hpp"
-#include "limber/dynamics/system/system_state.hpp"
+#include "limber/results/history.hpp"
 
 /// Error of one simulation of a system relative to another, the reference:
 /// docs/reference/compare.md.
@@ -62,7 +61,7 @@ struct SystemMotionError {
 /// One simulation: its model and its states at the output times.
 struct Motion {
   const dynamics::SystemModel& model;
-  std::span<const dynamics::SystemState> states;
+  States states;
 };
 
 /// Error of `motion` against `reference`. All output times have equal weight.

@@ -9,8 +9,7 @@
 namespace limber::results {
 namespace {
 
-MatrixX take_snapshots(const std::function<VectorX(std::size_t)>& column,
-                       std::size_t count) {
+MatrixX take_snapshots(const FieldColumn& column, std::size_t count) {
   const std::size_t taken = std::min(count, kMostSnapshots);
   MatrixX snapshots;
   for (std::size_t k = 0; k < taken; ++k) {
@@ -49,23 +48,23 @@ double find_largest_length(const VectorX& u) {
       u.reshaped(3, u.size() / 3).colwise().squaredNorm().maxCoeff());
 }
 
-MotionShapes find_motion_shapes(
-    const std::function<VectorX(std::size_t)>& column, std::size_t count,
-    const std::function<double(const VectorX&)>& size) {
-  MotionShapes motion;
-  if (count == 0) return motion;
-  const MatrixX snapshots = take_snapshots(column, count);
-  motion.shapes = find_shapes(snapshots);
-  motion.coordinates.resize(static_cast<Eigen::Index>(count),
-                            motion.shapes.cols());
+MatrixX find_motion_shapes(const FieldColumn& column, std::size_t count) {
+  if (count == 0) return {};
+  return find_shapes(take_snapshots(column, count));
+}
+
+double find_coordinates(const MatrixX& shapes, const FieldColumn& column,
+                        std::size_t count,
+                        const std::function<void(const VectorX&)>& take,
+                        const std::function<double(const VectorX&)>& size) {
+  double most = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const VectorX u = column(i);
-    const VectorX coordinates = motion.shapes.transpose() * u;
-    motion.coordinates.row(static_cast<Eigen::Index>(i)) = coordinates;
-    motion.error =
-        std::max(motion.error, size(u - motion.shapes * coordinates));
+    const VectorX coordinates = shapes.transpose() * u;
+    take(coordinates);
+    most = std::max(most, size(u - shapes * coordinates));
   }
-  return motion;
+  return most;
 }
 
 }  // namespace limber::results

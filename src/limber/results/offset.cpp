@@ -27,25 +27,43 @@ double find_radius(const dynamics::BodyModel& body) {
   return body.reduced->rows.x_B.colwise().norm().maxCoeff();
 }
 
-// Diagonal of a path's box.
-double find_length(const MatrixX& path) {
-  Bounds box;
-  for (const auto& p : path.rowwise()) box.include(p);
-  return box.size();
-}
+// Finds a home from the places of the bodies, output by output.
+class HomeFinder {
+ public:
+  explicit HomeFinder(std::vector<double> radii) : radii_(std::move(radii)) {}
 
-// Of the scene at an output, the largest.
-double find_size(const std::vector<Course>& courses) {
-  double size = 0.0;
-  for (Eigen::Index i = 0; i < courses.front().p_WB.rows(); ++i) {
-    Bounds box;
-    for (const Course& course : courses) {
-      box.include(course.p_WB.row(i), course.radius);
+  // @param place of a body [m]
+  template <typename Place>
+  void add(const Place& place) {
+    Bounds now;
+    for (std::size_t b = 0; b < radii_.size(); ++b) {
+      now.include(place(b), radii_[b]);
+      all_.include(place(b), radii_[b]);
     }
-    size = std::max(size, box.size());
+    means_.include(find_mean(place));
+    size_ = std::max(size_, now.size());
   }
-  return size;
-}
+
+  template <typename Place>
+  [[nodiscard]] Vector3 find_mean(const Place& place) const {
+    Vector3 mean = Vector3::Zero();
+    for (std::size_t b = 0; b < radii_.size(); ++b) {
+      mean += place(b) / double(radii_.size());
+    }
+    return mean;
+  }
+
+  // Without its path.
+  [[nodiscard]] Home find() const {
+    return {choose_offset(all_), MatrixX(0, 3), means_.size() > kLong * size_};
+  }
+
+ private:
+  std::vector<double> radii_;  // of the bodies [m]
+  Bounds all_;
+  Bounds means_;
+  double size_ = 0.0;  // of the scene at an output, the largest [m]
+};
 
 }  // namespace
 
@@ -65,29 +83,43 @@ Vector3 choose_offset(const Bounds& box) {
 
 Home find_home(const std::vector<Course>& courses) {
   if (courses.empty()) return {};
-  Bounds all;
-  MatrixX mean = MatrixX::Zero(courses.front().p_WB.rows(), 3);
-  for (const Course& course : courses) {
-    for (const auto& p : course.p_WB.rowwise()) all.include(p, course.radius);
-    mean += course.p_WB / double(courses.size());
+  std::vector<double> radii;
+  for (const Course& course : courses) radii.push_back(course.radius);
+  HomeFinder finder(std::move(radii));
+  const Eigen::Index outputs = courses.front().p_WB.rows();
+  const auto at = [&](Eigen::Index i) {
+    return [&courses, i](std::size_t b) -> Vector3 {
+      return courses[b].p_WB.row(i);
+    };
+  };
+  for (Eigen::Index i = 0; i < outputs; ++i) finder.add(at(i));
+  Home home = finder.find();
+  home.path = MatrixX::Zero(outputs, 3);
+  for (Eigen::Index i = 0; home.travels && i < outputs; ++i) {
+    home.path.row(i) = finder.find_mean(at(i)) - home.offset;
   }
-  Home home{choose_offset(all), MatrixX::Zero(mean.rows(), 3), false};
-  home.travels = find_length(mean) > kLong * find_size(courses);
-  if (home.travels) home.path = mean.rowwise() - home.offset.transpose();
   return home;
 }
 
-Home find_home(const dynamics::SystemModel& model,
-               std::span<const dynamics::SystemState> states) {
-  std::vector<Course> courses;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    Course course{find_radius(model.bodies[b]), MatrixX(std::ssize(states), 3)};
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      course.p_WB.row(Eigen::Index(i)) = states[i].bodies[b].p_WB;
-    }
-    courses.push_back(std::move(course));
+Home find_home(const dynamics::SystemModel& model, const States& states) {
+  if (model.bodies.empty()) return {};
+  std::vector<double> radii;
+  for (const dynamics::BodyModel& body : model.bodies) {
+    radii.push_back(find_radius(body));
   }
-  return find_home(courses);
+  HomeFinder finder(std::move(radii));
+  const auto at = [](const dynamics::SystemState& state) {
+    return [&state](std::size_t b) { return state.bodies[b].p_WB; };
+  };
+  for (const dynamics::SystemState& state : states) finder.add(at(state));
+  Home home = finder.find();
+  if (!home.travels) return home;
+  home.path.resize(std::ssize(states), 3);
+  Eigen::Index row = 0;
+  for (const dynamics::SystemState& state : states) {
+    home.path.row(row++) = finder.find_mean(at(state)) - home.offset;
+  }
+  return home;
 }
 
 dynamics::SystemState shift_bodies(dynamics::SystemState state,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "limber/common/types.hpp"
 #include "limber/dynamics/system/system_model.hpp"
-#include "limber/dynamics/system/system_state.hpp"
+#include "limber/results/history.hpp"
 
 /// Where files and pictures begin to count. Far from the origin of the world
 /// single precision loses the motion, and so do labels of few digits; relative
@@ -50,13 +49,14 @@ struct Course {
 struct Home {
   Vector3 offset = Vector3::Zero();  ///< of choose_offset, for all outputs [m]
   /// T x 3: motion that all bodies have in common, the mean of their places
-  /// less the offset; zero unless it goes 1000 times the size of the scene [m].
+  /// less the offset; zero unless it goes 1000 times the size of the scene, of
+  /// a run's states then without rows [m].
   MatrixX path;
   bool travels = false;  ///< whether the path is not zero
 };
 [[nodiscard]] Home find_home(const std::vector<Course>& courses);
 [[nodiscard]] Home find_home(const dynamics::SystemModel& model,
-                             std::span<const dynamics::SystemState> states);
+                             const States& states);
 
 /// The state with its bodies moved by -offset.
 [[nodiscard]] dynamics::SystemState shift_bodies(dynamics::SystemState state,

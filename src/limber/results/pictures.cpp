@@ -21,8 +21,6 @@ constexpr std::array<const char*, 7> kProbeColours = {
 constexpr int kWidth = 1200;
 constexpr int kPanelHeight = 300;
 constexpr int kHeaderHeight = 110;
-// More points than this are indistinguishable on the canvas.
-constexpr std::size_t kMostPoints = 4000;
 
 std::string style(std::size_t i) {
   return fmt::format("lc rgb '{}' dt {} lw {}",
@@ -34,8 +32,7 @@ void add_data(GnuplotScript& script, const std::string& block,
               const Series& series) {
   script.add(fmt::format("${} << EOD", block));
   const std::size_t n = std::min(series.times.size(), series.values.size());
-  const std::size_t stride = std::max<std::size_t>(1, n / kMostPoints);
-  for (std::size_t i = 0; i < n; i += stride) {
+  for (std::size_t i = 0; i < n; ++i) {
     const double value = series.values[i];
     script.add(std::isfinite(value)
                    ? fmt::format("{:.9g} {:.9g}", series.times[i], value)
@@ -326,6 +323,14 @@ void add_marks(GnuplotScript& script, std::vector<Mark> marks,
   }
 }
 
+// A value for each curve of a panel.
+void add_point(Panel& panel, double t, const std::vector<double>& values) {
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    panel.series[s].times.push_back(t);
+    panel.series[s].values.push_back(values[s]);
+  }
+}
+
 }  // namespace
 
 GnuplotScript write_overlay(const std::filesystem::path& file,
@@ -387,31 +392,26 @@ GnuplotScript write_overlay(const std::filesystem::path& file,
 
 GnuplotScript write_energy(const std::filesystem::path& file,
                            const std::string& title, const History& history) {
-  const auto series = [&](const char* name, auto value) {
-    Series s{name, history.times, {}};
-    for (const dynamics::EnergyBalance& e : history.energies) {
-      s.values.push_back(value(e));
-    }
-    return s;
-  };
-  using Balance = dynamics::EnergyBalance;
-  const Panel stored{
-      "stored [J]",
-      {series("total", [](const Balance& e) { return e.total(); }),
-       series("kinetic, rigid",
-              [](const Balance& e) { return e.kinetic_rigid; }),
-       series("kinetic, modal",
-              [](const Balance& e) { return e.kinetic_modal; }),
-       series("elastic", [](const Balance& e) { return e.elastic; }),
-       series("couplers", [](const Balance& e) { return e.coupler; })}};
-  const Panel audit{
-      "since the start [J]",
-      {series("change of total",
-              [&](const Balance& e) {
-                return e.total() - history.energies.front().total();
-              }),
-       series("work of loads", [](const Balance& e) { return e.work; }),
-       series("dissipated", [](const Balance& e) { return e.dissipated; })}};
+  Panel stored{"stored [J]",
+               {{"total", {}, {}},
+                {"kinetic, rigid", {}, {}},
+                {"kinetic, modal", {}, {}},
+                {"elastic", {}, {}},
+                {"couplers", {}, {}}}};
+  Panel audit{"since the start [J]",
+              {{"change of total", {}, {}},
+               {"work of loads", {}, {}},
+               {"dissipated", {}, {}}}};
+  double start_total = 0.0;
+  for (const std::size_t i : list_drawn_outputs(history.energies.size())) {
+    const dynamics::EnergyBalance e = history.energies[i];
+    if (i == 0) start_total = e.total();
+    add_point(
+        stored, history.times[i],
+        {e.total(), e.kinetic_rigid, e.kinetic_modal, e.elastic, e.coupler});
+    add_point(audit, history.times[i],
+              {e.total() - start_total, e.work, e.dissipated});
+  }
   // The panels have different curves, so each has its own key.
   GnuplotScript script(file, kWidth, 900);
   std::vector<Panel> panels = {stored, audit};

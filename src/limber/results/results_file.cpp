@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/files/hdf5_rows.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/results/path_step.hpp"
 
@@ -19,22 +22,64 @@ const std::string kFormat = "limber results";
 using dynamics::EnergyBalance;
 using dynamics::SystemState;
 
-Eigen::Index count(const History& history) {
-  return static_cast<Eigen::Index>(history.times.size());
-}
+/// What is stored of one output.
+struct Output {
+  double time;
+  std::vector<double> probes;
+  SystemState state;
+  EnergyBalance energy;
+};
 
-void write_probes(Hdf5File& out, const History& history) {
-  for (std::size_t c = 0; c < history.columns.size(); ++c) {
-    MatrixX values(count(history), 1);
-    for (std::size_t i = 0; i < history.times.size(); ++i) {
-      values(static_cast<Eigen::Index>(i), 0) = history.probe_rows[i][c];
+/// Matrices with a row an output, written together in one pass over these.
+class OutputRows {
+ public:
+  using Row = Eigen::Map<Eigen::RowVectorXd>;
+  using Fill = std::function<void(const Output&, Row)>;
+
+  OutputRows(Hdf5File& out, const History& history)
+      : out_(out), history_(history) {}
+
+  void add(const std::string& name, Eigen::Index columns,
+           const std::string& unit, const std::string& meaning, Fill fill) {
+    const Eigen::Index rows = std::ssize(history_.times);
+    matrices_.push_back(
+        {{out_, name, rows, columns, unit, meaning}, std::move(fill)});
+  }
+
+  void write() {
+    for (std::size_t i = 0; i < history_.times.size(); ++i) {
+      const Output output{history_.times[i], history_.probe_rows[i],
+                          history_.states[i], history_.energies[i]};
+      for (Matrix& matrix : matrices_) {
+        matrix.fill(output, matrix.rows.next());
+      }
     }
-    out.write("probes/" + to_path_step(history.columns[c].name), values,
-              history.columns[c].unit, "probe at each output time");
-    if (const double error = history.columns[c].error; !std::isnan(error)) {
-      out.write("errors/" + to_path_step(history.columns[c].name),
-                MatrixX(MatrixX::Constant(1, 1, error)),
-                history.columns[c].unit, "estimated error of the curve");
+    for (Matrix& matrix : matrices_) matrix.rows.close();
+  }
+
+ private:
+  struct Matrix {
+    Hdf5Rows rows;
+    Fill fill;
+  };
+
+  Hdf5File& out_;
+  const History& history_;
+  std::vector<Matrix> matrices_;
+};
+
+void add_probes(Hdf5File& out, const History& history, OutputRows& rows) {
+  for (std::size_t c = 0; c < history.columns.size(); ++c) {
+    const ProbeColumn& column = history.columns[c];
+    rows.add("probes/" + to_path_step(column.name), 1, column.unit,
+             "probe at each output time",
+             [c](const Output& output, OutputRows::Row row) {
+               row[0] = output.probes[c];
+             });
+    if (!std::isnan(column.error)) {
+      out.write("errors/" + to_path_step(column.name),
+                MatrixX(MatrixX::Constant(1, 1, column.error)), column.unit,
+                "estimated error of the curve");
     }
   }
 }
@@ -65,63 +110,64 @@ void write_extremes(Hdf5File& out, const History& history,
   }
 }
 
-void write_body_states(Hdf5File& out, const dynamics::BodyModel& body,
-                       std::size_t b, const History& history) {
-  MatrixX position(count(history), 3);
-  MatrixX rotation(count(history), 4);
-  MatrixX velocity(count(history), 3);
-  MatrixX spin(count(history), 3);
-  MatrixX eta(count(history), body.modes);
-  MatrixX etadot(count(history), body.modes);
-  for (Eigen::Index i = 0; i < count(history); ++i) {
-    const SystemState& state = history.states[static_cast<std::size_t>(i)];
-    const dynamics::BodyState& rigid = state.bodies[b];
-    position.row(i) = rigid.p_WB;
-    rotation.row(i) << rigid.quat_WB.w(), rigid.quat_WB.x(), rigid.quat_WB.y(),
-        rigid.quat_WB.z();
-    velocity.row(i) = rigid.v_WB_W;
-    spin.row(i) = rigid.w_WB_B;
-    eta.row(i) = state.eta.segment(body.offset, body.modes);
-    etadot.row(i) = state.etadot.segment(body.offset, body.modes);
-  }
+void add_body(Hdf5File& out, const dynamics::BodyModel& body, std::size_t b,
+              OutputRows& rows) {
   const std::string at = "bodies/" + to_path_step(body.name) + "/";
   out.write(at + "fidelity", std::string(to_string(body.fidelity)),
             "level of the body");
-  out.write(at + "p_WB", position, "m", "centre of mass, world frame");
-  out.write(at + "quat_WB", rotation, "1", "body to world, w x y z");
-  out.write(at + "v_WB_W", velocity, "m/s", "velocity, world frame");
-  out.write(at + "w_WB_B", spin, "rad/s", "angular velocity, body frame");
-  out.write(at + "eta", eta, "kg^1/2 m", "modal coordinates");
-  out.write(at + "etadot", etadot, "kg^1/2 m/s", "modal velocities");
+  const auto add = [&](const char* name, Eigen::Index columns, const char* unit,
+                       const char* meaning, auto value) {
+    rows.add(at + name, columns, unit, meaning,
+             [b, value](const Output& output, OutputRows::Row row) {
+               row = value(output.state.bodies[b]);
+             });
+  };
+  const auto add_modal = [&](const char* name, const char* unit,
+                             const char* meaning, VectorX SystemState::*all) {
+    rows.add(at + name, body.modes, unit, meaning,
+             [&body, all](const Output& output, OutputRows::Row row) {
+               row = (output.state.*all).segment(body.offset, body.modes);
+             });
+  };
+  using dynamics::BodyState;
+  add("p_WB", 3, "m", "centre of mass, world frame",
+      [](const BodyState& rigid) { return rigid.p_WB; });
+  add("quat_WB", 4, "1", "body to world, w x y z", [](const BodyState& rigid) {
+    const Quaternion& q = rigid.quat_WB;
+    return Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  });
+  add("v_WB_W", 3, "m/s", "velocity, world frame",
+      [](const BodyState& rigid) { return rigid.v_WB_W; });
+  add("w_WB_B", 3, "rad/s", "angular velocity, body frame",
+      [](const BodyState& rigid) { return rigid.w_WB_B; });
+  add_modal("eta", "kg^1/2 m", "modal coordinates", &SystemState::eta);
+  add_modal("etadot", "kg^1/2 m/s", "modal velocities", &SystemState::etadot);
 }
 
-void write_energies(Hdf5File& out, const History& history) {
-  const auto write = [&](const char* name, const char* meaning, auto field) {
-    MatrixX values(count(history), 1);
-    for (Eigen::Index i = 0; i < count(history); ++i) {
-      values(i, 0) = history.energies[static_cast<std::size_t>(i)].*field;
-    }
-    out.write(std::string("energy/") + name, values, "J", meaning);
+void add_energies(OutputRows& rows) {
+  const auto add = [&](const char* name, const char* meaning, auto field) {
+    rows.add(std::string("energy/") + name, 1, "J", meaning,
+             [field](const Output& output, OutputRows::Row row) {
+               row[0] = output.energy.*field;
+             });
   };
-  write("kinetic_rigid", "m v^2/2 + w' J w/2", &EnergyBalance::kinetic_rigid);
-  write("kinetic_modal", "w' H etadot + etadot^2/2",
-        &EnergyBalance::kinetic_modal);
-  write("elastic", "potential of the modes, eta' diag(lambda) eta/2 if linear",
-        &EnergyBalance::elastic);
-  write("coupler", "stored in couplers", &EnergyBalance::coupler);
-  write("dissipated", "since the start", &EnergyBalance::dissipated);
-  write("work", "of loads, gravity and drives since the start",
-        &EnergyBalance::work);
-
-  MatrixX linear(count(history), 3);
-  MatrixX angular(count(history), 3);
-  for (Eigen::Index i = 0; i < count(history); ++i) {
-    const EnergyBalance& e = history.energies[static_cast<std::size_t>(i)];
-    linear.row(i) = e.linear_momentum;
-    angular.row(i) = e.angular_momentum;
-  }
-  out.write("momentum/linear", linear, "kg m/s", "world frame");
-  out.write("momentum/angular", angular, "kg m^2/s", "about the world origin");
+  add("kinetic_rigid", "m v^2/2 + w' J w/2", &EnergyBalance::kinetic_rigid);
+  add("kinetic_modal", "w' H etadot + etadot^2/2",
+      &EnergyBalance::kinetic_modal);
+  add("elastic", "potential of the modes, eta' diag(lambda) eta/2 if linear",
+      &EnergyBalance::elastic);
+  add("coupler", "stored in couplers", &EnergyBalance::coupler);
+  add("dissipated", "since the start", &EnergyBalance::dissipated);
+  add("work", "of loads, gravity and drives since the start",
+      &EnergyBalance::work);
+  rows.add("momentum/linear", 3, "kg m/s", "world frame",
+           [](const Output& output, OutputRows::Row row) {
+             row = output.energy.linear_momentum;
+           });
+  rows.add("momentum/angular", 3, "kg m^2/s", "about the world origin",
+           [](const Output& output, OutputRows::Row row) {
+             row = output.energy.angular_momentum;
+           });
 }
 
 // A line an event.
@@ -164,16 +210,16 @@ void write_content(Hdf5File& out, const dynamics::SystemModel& model,
   out.write("format", kFormat, "what this file is");
   out.write("version", std::vector<std::int64_t>{kResultsFileVersion}, "1",
             "layout of this file");
-  MatrixX times(count(history), 1);
-  for (Eigen::Index i = 0; i < count(history); ++i) {
-    times(i, 0) = history.times[static_cast<std::size_t>(i)];
-  }
-  out.write("time", times, "s", "output times");
+  OutputRows rows(out, history);
+  rows.add(
+      "time", 1, "s", "output times",
+      [](const Output& output, OutputRows::Row row) { row[0] = output.time; });
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    write_body_states(out, model.bodies[b], b, history);
+    add_body(out, model.bodies[b], b, rows);
   }
-  write_probes(out, history);
-  write_energies(out, history);
+  add_probes(out, history, rows);
+  add_energies(rows);
+  rows.write();
   write_events(out, history);
 }
 

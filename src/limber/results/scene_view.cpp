@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <set>
+#include <utility>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
@@ -16,20 +17,23 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kSearched = 64;
 
+// Outputs of the largest elastic energies, and evenly spaced ones.
 std::set<std::size_t> list_candidates(const History& history) {
   const std::size_t count = history.states.size();
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t most = std::min(count, kSearched);
-  if (history.energies.size() == count) {
-    std::partial_sort(
-        order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most),
-        order.end(), [&](std::size_t a, std::size_t b) {
-          return history.energies[a].elastic > history.energies[b].elastic;
-        });
+  // Energies, of which the least comes first; the earliest of equal ones stay.
+  std::set<std::pair<double, std::ptrdiff_t>> largest;
+  std::ptrdiff_t output = 0;
+  for (const dynamics::EnergyBalance& energy : history.energies) {
+    if (std::isfinite(energy.elastic)) largest.emplace(energy.elastic, output);
+    if (largest.size() > most) largest.erase(largest.begin());
+    --output;
   }
-  std::set<std::size_t> candidates(
-      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
+  if (history.energies.size() != count) largest.clear();
+  std::set<std::size_t> candidates;
+  for (const auto& [energy, i] : largest) {
+    candidates.insert(static_cast<std::size_t>(-i));
+  }
   for (std::size_t k = 0; k < most; ++k) candidates.insert(k * count / most);
   candidates.insert(count - 1);
   return candidates;
@@ -62,9 +66,10 @@ DeformationPeak find_largest_deformation(const dynamics::SystemModel& model,
                                          const History& history) {
   DeformationPeak peak;
   for (const std::size_t i : list_candidates(history)) {
+    const dynamics::SystemState state = history.states[i];
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       if (!model.bodies[b].reduced) continue;
-      const double u = find_deformation(model, b, history.states[i]);
+      const double u = find_deformation(model, b, state);
       if (u > peak.deformation) peak = {i, u};
     }
   }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "limber/common/files/hdf5_rows.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/results/motion_shapes.hpp"
@@ -154,20 +155,22 @@ class SurfaceWriter {
     const Eigen::Index n = body.reduced->rows.x_B.cols();
     const auto deform = [&](std::size_t i) {
       MatrixX u_B(3 * n, 1);
+      const dynamics::SystemState state = history_.states[i];
       calc_node_deformations(model_, static_cast<dynamics::BodyIndex>(b),
-                             {&history_.states[i], 1}, u_B);
+                             {&state, 1}, u_B);
       return VectorX(take_nodes(u_B, surface.rows));
     };
-    const MotionShapes motion =
-        find_motion_shapes(deform, history_.states.size());
+    const std::size_t count = history_.states.size();
+    const MatrixX shapes = find_motion_shapes(deform, count);
     std::string name = next_name();
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
-                  motion.shapes);
-    out_.write(at + "eta", motion.coordinates, "kg^1/2 m",
-               "coordinates of the shapes at each output time");
-    MatrixX error(1, 1);
-    error(0, 0) = motion.error;
-    out_.write(at + "truncation", error, "m",
+                  shapes);
+    Hdf5Rows rows(out_, at + "eta", std::ssize(history_.states), shapes.cols(),
+                  "kg^1/2 m", "coordinates of the shapes at each output time");
+    const double error = find_coordinates(
+        shapes, deform, count, [&](const VectorX& q) { rows.next() = q; });
+    rows.close();
+    out_.write(at + "truncation", MatrixX::Constant(1, 1, error), "m",
                "largest displacement that the shapes leave out");
     if (has_modal_stress(body) || wants_stress(body.name)) {
       write_stress(b, at, surface);
@@ -209,14 +212,22 @@ class SurfaceWriter {
   void write_stress(
       const std::string& at,
       const std::function<VectorX(const dynamics::SystemState&)>& stress_of) {
-    const MotionShapes stress = find_stress_shapes(stress_of, history_);
-    out_.write_single(at + "Sigma_B", stress.shapes, "1",
+    const auto column = [&](std::size_t i) {
+      return stress_of(history_.states[i]);
+    };
+    const std::size_t count = history_.states.size();
+    const MatrixX shapes = find_motion_shapes(column, count);
+    out_.write_single(at + "Sigma_B", shapes, "1",
                       "shapes of the stress at the nodes of the surface, "
                       "6n x r: xx, yy, zz, xy, yz, xz");
-    out_.write(at + "zeta", stress.coordinates, "Pa",
-               "coordinates of these shapes at each output time");
-    out_.write(at + "stress_truncation", MatrixX::Constant(1, 1, stress.error),
-               "Pa", "largest von Mises stress that these shapes leave out");
+    Hdf5Rows rows(out_, at + "zeta", std::ssize(history_.states), shapes.cols(),
+                  "Pa", "coordinates of these shapes at each output time");
+    const double error = find_coordinates(
+        shapes, column, count, [&](const VectorX& q) { rows.next() = q; },
+        find_largest_von_mises);
+    rows.close();
+    out_.write(at + "stress_truncation", MatrixX::Constant(1, 1, error), "Pa",
+               "largest von Mises stress that these shapes leave out");
   }
 
   Hdf5File& out_;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_rows.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -67,34 +68,26 @@ void write_lines(Hdf5File& out, const SystemModel& model) {
   }
 }
 
-/// A function of time at the outputs, on both sides of its jumps and between
-/// these.
-struct Course {
-  std::vector<double> times;
-  std::vector<double> values;
-};
-
 constexpr int kBetweenJumps = 16;
 constexpr std::size_t kMostJumps = 1000;
 
-Course find_course(const dynamics::TimeFunction& function,
-                   const History& history) {
-  Course course;
-  if (history.times.empty()) return course;
-  if (std::holds_alternative<dynamics::InputFunction>(function)) {
-    for (const dynamics::SystemState& state : history.states) {
-      course.times.push_back(state.t);
-      course.values.push_back(evaluate(function, dynamics::now_of(state)));
-    }
-    return course;
-  }
-  std::vector<std::pair<double, Side>> places;
-  for (const double t : history.times) places.emplace_back(t, Side::right);
+using Place = std::pair<double, Side>;
+
+bool is_before(const Place& a, const Place& b) {
+  if (a.first != b.first) return a.first < b.first;
+  return a.second == Side::left && b.second == Side::right;
+}
+
+/// Both sides of the jumps that a function has between the outputs, and times
+/// between these jumps.
+std::vector<Place> list_places(const dynamics::TimeFunction& function,
+                               const std::vector<double>& outputs) {
   std::vector<double> jumps = break_times(function);
   std::erase_if(jumps, [&](double t) {
-    return !(t >= history.times.front() && t <= history.times.back());
+    return outputs.empty() || !(t >= outputs.front() && t <= outputs.back());
   });
   jumps.resize(std::min(jumps.size(), kMostJumps));
+  std::vector<Place> places;
   for (std::size_t i = 0; i < jumps.size(); ++i) {
     places.emplace_back(jumps[i], Side::left);
     places.emplace_back(jumps[i], Side::right);
@@ -105,15 +98,38 @@ Course find_course(const dynamics::TimeFunction& function,
           Side::right);
     }
   }
-  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
-    if (a.first != b.first) return a.first < b.first;
-    return a.second == Side::left && b.second == Side::right;
-  });
-  for (const auto& [t, side] : places) {
-    course.times.push_back(t);
-    course.values.push_back(evaluate(function, t, side));
+  std::sort(places.begin(), places.end(), is_before);
+  return places;
+}
+
+/// A function of time at the outputs and at `places`.
+void write_course(Hdf5File& out, const std::string& name,
+                  const dynamics::TimeFunction& function,
+                  const History& history) {
+  const bool is_input =
+      std::holds_alternative<dynamics::InputFunction>(function);
+  const std::vector<Place> places =
+      is_input ? std::vector<Place>() : list_places(function, history.times);
+  Hdf5Rows rows(out, name, std::ssize(history.times) + std::ssize(places), 2,
+                "s, 1",
+                "time and factor, linear between; a time twice: a jump");
+  auto place = places.begin();
+  const auto pass_places = [&](const Place& until) {
+    for (; place != places.end() && is_before(*place, until); ++place) {
+      rows.next() << place->first,
+          evaluate(function, place->first, place->second);
+    }
+  };
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    const double t = history.times[i];
+    pass_places({t, Side::right});
+    rows.next() << t,
+        is_input ? evaluate(function, dynamics::now_of(history.states[i]))
+                 : evaluate(function, t, Side::right);
   }
-  return course;
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  pass_places({kEver, Side::right});
+  rows.close();
 }
 
 void write_loads(Hdf5File& out, const SystemModel& model,
@@ -121,20 +137,12 @@ void write_loads(Hdf5File& out, const SystemModel& model,
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const dynamics::Load& load = model.loads[i];
     const std::string at = fmt::format("scene/loads/{:04}/", i);
-    const Course course = find_course(load.function, history);
-    const auto rows = std::ssize(course.times);
-    MatrixX values(rows, 2);
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const auto k = static_cast<std::size_t>(r);
-      values.row(r) << course.times[k], course.values[k];
-    }
     out.write(at + "name", load.name, "load");
     out.write(at + "frame", std::string(load.in_world ? "world" : "body"),
               "frame of force and moment");
     out.write(at + "force", MatrixX(load.force.transpose()), "N", "force");
     out.write(at + "moment", MatrixX(load.moment.transpose()), "N m", "moment");
-    out.write(at + "course", values, "s, 1",
-              "time and factor, linear between; a time twice: a jump");
+    write_course(out, at + "course", load.function, history);
     write_anchor(out, at, model, load.where);
   }
 }
@@ -162,58 +170,73 @@ Eigen::Matrix<double, 3, 2> find_axes(const joints::TouchReading& touch) {
 constexpr Eigen::Index kTouchNumbers = 6;
 constexpr Eigen::Index kPatchNumbers = 10;
 
-struct TouchCourse {
-  MatrixX touch;  // place and force on B, T x 6; zero while apart
-  MatrixX patch;  // half axes, friction on B, whether it slips, T x 10
-};
+/// Where and how a pair touches at each output.
+class TouchWriter {
+ public:
+  TouchWriter(Hdf5File& out, const std::string& at, const SystemModel& model,
+              const dynamics::Pair& pair, Eigen::Index outputs)
+      : model_(model),
+        pair_(pair),
+        scratch_(dynamics::make_response(model, pair)),
+        touch_(out, at + "touch", outputs, kTouchNumbers, "m, N",
+               "place and force on B at each output, world; zero while apart, "
+               "NaN where it cannot be computed"),
+        patch_(out, at + "patch", outputs, kPatchNumbers, "m, m, N, 1",
+               "two half axes of the ellipse of uniform pressure with the "
+               "touch's second moments, friction on B, 1 where it slips, "
+               "world; zero while apart, NaN where it cannot be computed") {}
 
-TouchCourse read_touches(const SystemModel& model, const dynamics::Pair& pair,
-                         const History& history) {
-  joints::PairResponse scratch = dynamics::make_response(model, pair);
-  const Eigen::Index rows = std::ssize(history.states);
-  TouchCourse course{MatrixX::Zero(rows, kTouchNumbers),
-                     MatrixX::Zero(rows, kPatchNumbers)};
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const dynamics::SystemState& state =
-        history.states[static_cast<std::size_t>(i)];
-    const dynamics::PairMotion motion = find_pair_motion(model, pair, state);
+  void add(const dynamics::SystemState& state) {
+    auto touch = touch_.next();
+    auto patch = patch_.next();
+    touch.setZero();
+    patch.setZero();
+    const dynamics::PairMotion motion = find_pair_motion(model_, pair_, state);
     try {
       const joints::TouchReading reading =
-          pair.law->touching()->read(motion.bodies(), dynamics::now_of(state),
-                                     memory_of(pair, state), scratch);
-      if (reading.points == 0) continue;
+          pair_.law->touching()->read(motion.bodies(), dynamics::now_of(state),
+                                      memory_of(pair_, state), scratch_);
+      if (reading.points == 0) return;
       const Eigen::Matrix<double, 3, 2> axes = find_axes(reading);
-      course.touch.row(i) << reading.p_W.transpose(),
-          reading.force_W.transpose();
-      course.patch.row(i) << axes.col(0).transpose(), axes.col(1).transpose(),
+      touch << reading.p_W.transpose(), reading.force_W.transpose();
+      patch << axes.col(0).transpose(), axes.col(1).transpose(),
           reading.friction_W.transpose(), reading.slips ? 1.0 : 0.0;
     } catch (const NumericalError&) {
       const double gap = std::numeric_limits<double>::quiet_NaN();
-      course.touch.row(i).setConstant(gap);
-      course.patch.row(i).setConstant(gap);
+      touch.setConstant(gap);
+      patch.setConstant(gap);
     }
   }
-  return course;
-}
+
+  void close() {
+    touch_.close();
+    patch_.close();
+  }
+
+ private:
+  const SystemModel& model_;
+  const dynamics::Pair& pair_;
+  joints::PairResponse scratch_;
+  Hdf5Rows touch_;  // place and force on B; zero while apart
+  Hdf5Rows patch_;  // half axes, friction on B, whether it slips
+};
 
 void write_contacts(Hdf5File& out, const SystemModel& model,
                     const History& history) {
-  int count = 0;
+  std::vector<TouchWriter> writers;
   for (const dynamics::Pair& pair : model.pairs) {
     if (pair.law->touching() == nullptr) continue;
-    const std::string at = fmt::format("scene/contacts/{:04}/", count++);
+    const std::string at = fmt::format("scene/contacts/{:04}/", writers.size());
     out.write(at + "name", pair.name, "contact");
     out.write(at + "A", name_body(model, pair.body_A), "empty: the world");
     out.write(at + "B", name_body(model, pair.body_B), "empty: the world");
-    const TouchCourse course = read_touches(model, pair, history);
-    out.write(at + "touch", course.touch, "m, N",
-              "place and force on B at each output, world; zero while apart, "
-              "NaN where it cannot be computed");
-    out.write(at + "patch", course.patch, "m, m, N, 1",
-              "two half axes of the ellipse of uniform pressure with the "
-              "touch's second moments, friction on B, 1 where it slips, world; "
-              "zero while apart, NaN where it cannot be computed");
+    writers.emplace_back(out, at, model, pair, std::ssize(history.states));
   }
+  if (writers.empty()) return;
+  for (const dynamics::SystemState& state : history.states) {
+    for (TouchWriter& writer : writers) writer.add(state);
+  }
+  for (TouchWriter& writer : writers) writer.close();
 }
 
 }  // namespace

@@ -11,20 +11,6 @@
 #include "limber/results/xdmf_file.hpp"
 
 namespace limber::results {
-namespace {
-
-/// Of six rows per node.
-double find_largest_von_mises(const VectorX& stress) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < stress.size(); i += 6) {
-    largest = std::max(largest,
-                       flexbody::calc_von_mises(Vector6(stress.segment<6>(i))));
-  }
-  return largest;
-}
-
-}  // namespace
-
 std::unique_ptr<FullStressField> FullStressField::make(
     const dynamics::SystemModel& model, dynamics::BodyIndex body,
     const std::vector<int>& nodes) {
@@ -76,12 +62,13 @@ bool has_modal_stress(const dynamics::BodyModel& body) {
          body.reduced->stress->Sigma_B.cols() >= count_coordinates(body);
 }
 
-MotionShapes find_stress_shapes(
-    const std::function<VectorX(const dynamics::SystemState&)>& stress_of,
-    const History& history) {
-  return find_motion_shapes(
-      [&](std::size_t i) { return stress_of(history.states[i]); },
-      history.states.size(), find_largest_von_mises);
+double find_largest_von_mises(const VectorX& stress) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < stress.size(); i += 6) {
+    largest = std::max(largest,
+                       flexbody::calc_von_mises(Vector6(stress.segment<6>(i))));
+  }
+  return largest;
 }
 
 }  // namespace limber::results

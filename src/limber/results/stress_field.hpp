@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/flexbody/model/full_stress.hpp"
-#include "limber/results/history.hpp"
-#include "limber/results/motion_shapes.hpp"
 
 namespace limber::results {
 
@@ -47,11 +44,7 @@ class FullStressField {
 /// level.
 [[nodiscard]] bool has_modal_stress(const dynamics::BodyModel& body);
 
-/// Stress in body axes at all output times as a few shapes, 6n rows [1], times
-/// coordinates [Pa]; the error is the largest omitted von Mises stress [Pa].
-/// @param stress_of 6n, components (xx, yy, zz, xy, yz, xz) of each node [Pa]
-[[nodiscard]] MotionShapes find_stress_shapes(
-    const std::function<VectorX(const dynamics::SystemState&)>& stress_of,
-    const History& history);
+/// Of stress at nodes, six rows each: xx, yy, zz, xy, yz, xz [as the stress].
+[[nodiscard]] double find_largest_von_mises(const VectorX& stress);
 
 }  // namespace limber::results

@@ -160,8 +160,9 @@ std::vector<std::string> write_xdmf(const std::filesystem::path& file,
   const auto at = [&](std::size_t i) {
     return shift_bodies(history.states[i], all.offset);
   };
+  const SystemState start = history.states.empty() ? SystemState() : at(0);
   all.find_frame = [&](std::size_t i) {
-    return surfaces.find_frame(at(0), at(i), all.nodes);
+    return surfaces.find_frame(start, at(i), all.nodes);
   };
   write_xdmf_file(file, all);
   return missing;

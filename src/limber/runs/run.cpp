@@ -41,8 +41,9 @@ void simulate(const scene::BuiltScene& built, const Progress& progress,
 
 void include_outputs(const results::History& history, Envelopes& envelopes) {
   for (std::size_t i = 0; i < history.times.size(); ++i) {
-    for (std::size_t c = 0; c < history.probe_rows[i].size(); ++c) {
-      include(envelopes, c, history.probe_rows[i][c], history.times[i]);
+    const std::vector<double> row = history.probe_rows[i];
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      include(envelopes, c, row[c], history.times[i]);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace limber::results::motion_shapes_test {
 namespace {
@@ -23,17 +24,32 @@ MatrixX make_motion(Eigen::Index times) {
   return u;
 }
 
-MotionShapes find(const MatrixX& u) {
-  return find_motion_shapes(
-      [&](std::size_t i) {
-        return VectorX(u.col(static_cast<Eigen::Index>(i)));
-      },
-      static_cast<std::size_t>(u.cols()));
+struct Motion {
+  MatrixX shapes;
+  MatrixX coordinates;
+  double error = 0.0;
+};
+
+Motion find(
+    const MatrixX& u,
+    const std::function<double(const VectorX&)>& size = find_largest_length) {
+  const auto column = [&](std::size_t i) {
+    return VectorX(u.col(static_cast<Eigen::Index>(i)));
+  };
+  const auto count = static_cast<std::size_t>(u.cols());
+  Motion motion;
+  motion.shapes = find_motion_shapes(column, count);
+  motion.coordinates.resize(u.cols(), motion.shapes.cols());
+  Eigen::Index row = 0;
+  motion.error = find_coordinates(
+      motion.shapes, column, count,
+      [&](const VectorX& q) { motion.coordinates.row(row++) = q; }, size);
+  return motion;
 }
 
 TEST(MotionShapes, OfThreeShapesAreThree) {
   const MatrixX u = make_motion(400);  // more than the snapshots
-  const MotionShapes motion = find(u);
+  const Motion motion = find(u);
   ASSERT_EQ(motion.shapes.cols(), 3);
   EXPECT_LT(
       (motion.shapes.transpose() * motion.shapes - Matrix3::Identity()).norm(),
@@ -46,7 +62,7 @@ TEST(MotionShapes, OfThreeShapesAreThree) {
 TEST(MotionShapes, StateWhatTheyLeaveOut) {
   MatrixX u = make_motion(100);
   u.row(4) += 1e-7 * Eigen::RowVectorXd::Random(100);
-  const MotionShapes motion = find(u);
+  const Motion motion = find(u);
   const MatrixX rest = u - motion.shapes * motion.coordinates.transpose();
   double largest = 0.0;
   for (Eigen::Index k = 0; k < u.cols(); ++k) {
@@ -61,12 +77,9 @@ TEST(MotionShapes, StateWhatTheyLeaveOut) {
 TEST(MotionShapes, OfAnotherFieldStateItsOwnSizeOfWhatTheyLeaveOut) {
   MatrixX field = make_motion(100);
   field.row(7) += 1e-7 * Eigen::RowVectorXd::Random(100);
-  const auto column = [&](std::size_t i) {
-    return VectorX(field.col(static_cast<Eigen::Index>(i)));
-  };
-  const MotionShapes shapes = find_motion_shapes(
-      column, 100,
-      [](const VectorX& rest) { return rest.segment<6>(6).cwiseAbs().sum(); });
+  const Motion shapes = find(field, [](const VectorX& rest) {
+    return rest.segment<6>(6).cwiseAbs().sum();
+  });
   const MatrixX rest = field - shapes.shapes * shapes.coordinates.transpose();
   const double largest =
       rest.middleRows<6>(6).cwiseAbs().colwise().sum().maxCoeff();
@@ -75,7 +88,7 @@ TEST(MotionShapes, OfAnotherFieldStateItsOwnSizeOfWhatTheyLeaveOut) {
 }
 
 TEST(MotionShapes, OfABodyAtRestAreNone) {
-  const MotionShapes motion = find(MatrixX::Zero(6, 5));
+  const Motion motion = find(MatrixX::Zero(6, 5));
   EXPECT_EQ(motion.shapes.cols(), 0);
   EXPECT_EQ(motion.coordinates.rows(), 5);
   EXPECT_EQ(motion.error, 0.0);

@@ -39,7 +39,7 @@ TEST(Offset, OfARunMovesWithItsBodies) {
   test::SmallRun run = test::make_small_run();
   EXPECT_EQ(find_home(run.model, run.history.states).offset, Vector3::Zero());
   const Vector3 place(1e7, 0.0, -2e6);
-  for (auto& state : run.history.states) state = shift_bodies(state, -place);
+  test::move_bodies(run.history, place);
   EXPECT_EQ(find_home(run.model, run.history.states).offset, place);
 }
 

@@ -144,7 +144,7 @@ TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
 
 SmallRun make_run_at(const Vector3& place) {
   SmallRun run = make_small_run();
-  for (auto& state : run.history.states) state = shift_bodies(state, -place);
+  test::move_bodies(run.history, place);
   return run;
 }
 
@@ -176,7 +176,7 @@ TEST_F(Pictures, ScenesFarAwayAreThoseNearTheOriginButForLabels) {
   }
   // That the comparison can fail: another moment.
   SmallRun other = near;
-  other.history.states.resize(1);
+  other.history.states = {near.history.states.front()};
   EXPECT_GT(test::find_different_fraction(expected, draw(other)), 0.01);
 }
 
@@ -185,14 +185,16 @@ TEST_F(Pictures, ScenesThatTravelAreDrawnFromTheMeanOfTheirBodies) {
   SmallRun fast = still;
   const Home home = find_home(still.model, still.history.states);
   ASSERT_FALSE(home.travels);
-  for (std::size_t i = 0; i < still.history.states.size(); ++i) {
-    SystemState& state = still.history.states[i];
-    fast.history.states[i] =
-        shift_bodies(state, -double(i) * Vector3(1e5, 0.0, 2e5));
+  double output = 0.0;
+  test::change_states(fast.history, [&](SystemState& state) {
+    state = shift_bodies(state, -output * Vector3(1e5, 0.0, 2e5));
+    output += 1.0;
+  });
+  test::change_states(still.history, [](SystemState& state) {
     Vector3 mean = Vector3::Zero();
     for (const auto& body : state.bodies) mean += body.p_WB;
     state = shift_bodies(state, mean / double(state.bodies.size()));
-  }
+  });
   const auto draw = [](const SmallRun& run) {
     return draw_pixels([&](const auto& file) {
       return draw_scene(file, "run", run.model, run.history, {});

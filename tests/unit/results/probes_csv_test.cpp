@@ -103,7 +103,7 @@ TEST(ProbesCsv, NumbersReadBackToTheSameBits) {
 TEST(ProbesCsv, ARunWithoutOutputsLeavesTheHeaderAlone) {
   History history = make_history();
   history.times.clear();
-  history.probe_rows.clear();
+  history.probe_rows = {};
   EXPECT_THAT(write_lines(history),
               ElementsAre("time [s],tip.ux [m],wrist.wz [rad/s]"));
 }
@@ -111,7 +111,7 @@ TEST(ProbesCsv, ARunWithoutOutputsLeavesTheHeaderAlone) {
 TEST(ProbesCsv, ARunWithoutProbesLeavesItsTimes) {
   History history;
   history.times = {0.0, 0.5};
-  history.probe_rows = {{}, {}};
+  history.probe_rows = {std::vector<double>(), std::vector<double>()};
   EXPECT_THAT(write_lines(history), ElementsAre("time [s]", "0", "0.5"));
 }
 

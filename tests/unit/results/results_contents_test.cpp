@@ -61,7 +61,8 @@ TEST(ResultsFile, ContentsOfARunWithoutOutputsNameBodiesAndProbes) {
 TEST(ResultsFile, RunWithoutProbesHasNone) {
   SmallRun run = make_small_run();
   run.history.columns.clear();
-  for (auto& row : run.history.probe_rows) row.clear();
+  run.history.probe_rows =
+      std::vector<std::vector<double>>(run.history.times.size());
   const TemporaryFolder folder;
   write_results(folder.path() / "r.h5", run.model, run.history);
   EXPECT_THAT(read_contents(folder.path() / "r.h5").probes, IsEmpty());

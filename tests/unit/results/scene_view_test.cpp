@@ -76,9 +76,12 @@ TEST(View, OfNothingIsAnOrdinaryOne) {
 TEST(LargestDeformation, IsThatOfTheOutputs) {
   test::SmallRun run = test::make_small_run();
   ASSERT_GT(run.history.states.size(), 2U);
-  for (dynamics::SystemState& state : run.history.states) state.eta.setZero();
+  test::change_states(run.history, [](auto& state) { state.eta.setZero(); });
   EXPECT_EQ(find_largest_deformation(run.model, run.history).deformation, 0.0);
-  run.history.states[1].eta[0] = 0.5;
+  const double second = run.history.times[1];
+  test::change_states(run.history, [&](auto& state) {
+    if (state.t == second) state.eta[0] = 0.5;
+  });
   const DeformationPeak peak = find_largest_deformation(run.model, run.history);
   EXPECT_EQ(peak.output, 1U);
   const auto& Phi = run.model.bodies[0].reduced->rows.Phi_B;

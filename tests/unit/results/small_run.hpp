@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
+#include "limber/results/offset.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::results::test {
@@ -29,6 +31,24 @@ struct SmallRun {
 inline constexpr int kOutputs = 5;
 
 [[nodiscard]] SmallRun make_small_run(const BodyNames& names = {});
+
+/// Changes all states of a run, by `change(state)`.
+template <typename Change>
+void change_states(History& history, const Change& change) {
+  States changed;
+  for (dynamics::SystemState state : history.states) {
+    change(state);
+    changed.push_back(std::move(state));
+  }
+  history.states = changed;
+}
+
+/// Moves all bodies of a run.
+inline void move_bodies(History& history, const Vector3& by) {
+  change_states(history, [&](dynamics::SystemState& state) {
+    state = shift_bodies(std::move(state), -by);
+  });
+}
 
 /// The same system before its first output.
 [[nodiscard]] SmallRun make_empty_run();

@@ -110,7 +110,7 @@ TEST(Xdmf, PointsFarAwayAreThoseNearTheOriginFromAnOffset) {
   const SmallRun near = make_small_run();
   SmallRun far = make_small_run();
   const Vector3 place(1e7, 0.0, -2e6);
-  for (auto& state : far.history.states) state = shift_bodies(state, -place);
+  test::move_bodies(far.history, place);
   const Written here = write_and_read(near);
   const Written there = write_and_read(far);
   EXPECT_THAT(here.data.at("offset").numbers, ElementsAre(0.0, 0.0, 0.0));

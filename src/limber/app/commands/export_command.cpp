@@ -14,6 +14,8 @@
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/results/bodies/body_files.hpp"
 #include "limber/results/bodies/matrix_folder.hpp"
+#include "limber/results/checkpoint_file.hpp"
+#include "limber/results/probes_csv.hpp"
 #include "limber/results/xdmf_file.hpp"
 #include "limber/view/gltf.hpp"
 #include "limber/view/moving_surface.hpp"
@@ -78,7 +80,28 @@ void export_body(const ExportOptions& options) {
   fmt::print("{}\n", file.string());
 }
 
+/// The probes until the checkpoint.
+void export_checkpoint(const ExportOptions& options) {
+  const std::filesystem::path file = options.out;
+  if (file.extension() != ".csv") {
+    throw InputError(
+        fmt::format("-o {}: of a checkpoint the probes are written, to a .csv",
+                    options.out));
+  }
+  if (options.magnification != 1.0 || options.damping_ratio != 0.0) {
+    throw InputError(
+        "--magnification and --damping-ratio are not for checkpoints");
+  }
+  results::write_probes_csv(file,
+                            results::read_checkpoint(options.results).history);
+  fmt::print("{}\n", file.string());
+}
+
 void export_results(const ExportOptions& options) {
+  if (results::is_checkpoint_file(options.results)) {
+    export_checkpoint(options);
+    return;
+  }
   if (flexbody::is_body_file(options.results)) {
     export_body(options);
     return;
@@ -114,16 +137,17 @@ void add_export(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand(
       "export",
-      "Write results as an animated glTF 2.0 scene or for ParaView, or a "
-      "reduced body for other programs");
+      "Write results as an animated glTF 2.0 scene or for ParaView, the probes "
+      "of a run that was killed, or a reduced body for other programs");
   command
       ->add_option("results", options->results,
-                   "Folder of a run, or its results.h5; or a reduced body of "
-                   "'limber reduce'")
+                   "Folder of a run, or its results.h5; its checkpoint.bin; or "
+                   "a reduced body of 'limber reduce'")
       ->required();
   command
       ->add_option("-o,--out", options->out,
-                   "The file: of results .glb or .xdmf; of a body .mat "
+                   "The file: of results .glb or .xdmf; of a checkpoint .csv; "
+                   "of a body .mat "
                    "(Simscape), .txt (42), .unv or .uff (universal file), or "
                    "a folder of matrices")
       ->required();

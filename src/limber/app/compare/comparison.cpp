@@ -32,19 +32,23 @@ std::string text_of(const std::exception_ptr& failure) {
 
 std::map<std::string, ProbeDifference> find_probe_differences(
     const results::History& history, const results::History& reference) {
-  std::map<std::string, ProbeDifference> differences;
+  std::vector<ProbeDifference> found(reference.columns.size());
   const std::size_t count =
       std::min(history.probe_rows.size(), reference.probe_rows.size());
-  for (std::size_t c = 0; c < reference.columns.size(); ++c) {
-    ProbeDifference found;
-    found.unit = reference.columns[c].unit;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double d = history.probe_rows[i][c] - reference.probe_rows[i][c];
-      found.rms += d * d / static_cast<double>(count);
-      found.max = std::max(found.max, std::abs(d));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<double> row = history.probe_rows[i];
+    const std::vector<double> reference_row = reference.probe_rows[i];
+    for (std::size_t c = 0; c < found.size(); ++c) {
+      const double d = row[c] - reference_row[c];
+      found[c].rms += d * d / static_cast<double>(count);
+      found[c].max = std::max(found[c].max, std::abs(d));
     }
-    found.rms = std::sqrt(found.rms);
-    differences[reference.columns[c].name] = found;
+  }
+  std::map<std::string, ProbeDifference> differences;
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    found[c].unit = reference.columns[c].unit;
+    found[c].rms = std::sqrt(found[c].rms);
+    differences[reference.columns[c].name] = found[c];
   }
   return differences;
 }

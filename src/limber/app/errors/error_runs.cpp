@@ -24,26 +24,27 @@
 namespace limber::app {
 namespace {
 
-runs::ColumnValues take_column(const runs::Run& run, std::size_t c) {
-  runs::ColumnValues values;
-  if (c < run.record.peaks.size()) values.peak = run.record.peaks[c].value;
-  for (const std::vector<double>& row : run.history.probe_rows) {
-    values.curve.push_back(row[c]);
-  }
-  return values;
-}
-
 /// Columns of these names; none if one is missing.
 std::vector<runs::ColumnValues> take_columns(
     const runs::Run& run, const std::vector<std::string>& names) {
-  std::vector<runs::ColumnValues> columns;
+  std::vector<std::size_t> places;
   for (const std::string& name : names) {
     const auto found = std::find_if(
         run.history.columns.begin(), run.history.columns.end(),
         [&](const results::ProbeColumn& one) { return one.name == name; });
     if (found == run.history.columns.end()) return {};
-    columns.push_back(take_column(
-        run, static_cast<std::size_t>(found - run.history.columns.begin())));
+    places.push_back(
+        static_cast<std::size_t>(found - run.history.columns.begin()));
+  }
+  std::vector<runs::ColumnValues> columns(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (places[k] >= run.record.peaks.size()) continue;
+    columns[k].peak = run.record.peaks[places[k]].value;
+  }
+  for (const std::vector<double>& row : run.history.probe_rows) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      columns[k].curve.push_back(row[places[k]]);
+    }
   }
   return columns;
 }

@@ -53,7 +53,7 @@ struct Pace {
 /// Cost of a run.
 struct CostCheck {
   Pace pace;
-  std::size_t memory_bytes = 0;  ///< largest use of this process, and outputs
+  std::size_t memory_bytes = 0;  ///< largest use of this process until now
   std::size_t file_bytes = 0;    ///< of results.h5
 };
 

@@ -23,11 +23,14 @@ results::Band make_band(const Envelopes& envelopes, std::size_t column) {
 }
 
 results::Series make_series(const NamedHistory& line, std::size_t column) {
-  results::Series series{line.name, line.history->times, {}};
-  for (const std::vector<double>& row : line.history->probe_rows) {
-    series.values.push_back(row[column]);
+  results::Series series{line.name, {}, {}};
+  const results::History& history = *line.history;
+  for (const std::size_t i :
+       results::list_drawn_outputs(history.times.size())) {
+    series.times.push_back(history.times[i]);
+    series.values.push_back(history.probe_rows[i][column]);
   }
-  const double error = line.history->columns[column].error;
+  const double error = history.columns[column].error;
   if (!std::isnan(error)) series.error = error;
   const dynamics::RunRecord* record = line.record;
   if (record == nullptr || column >= record->peaks.size()) return series;

@@ -37,8 +37,8 @@ std::vector<Column> list_columns(const scene::BuiltScene& built) {
 }
 
 /// State of the output nearest to `time`.
-const dynamics::SystemState& find_nearest(const results::History& history,
-                                          double time) {
+dynamics::SystemState find_nearest(const results::History& history,
+                                   double time) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < history.times.size(); ++i) {
     if (std::abs(history.times[i] - time) <
@@ -99,7 +99,7 @@ std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
     const int place = record.places[column.index];
     if (!column.stress->is_of_link || place < 0) continue;
     const dynamics::Extreme& peak = record.peaks[column.index];
-    const dynamics::SystemState& near = find_nearest(history, peak.time);
+    const dynamics::SystemState near = find_nearest(history, peak.time);
     peaks.push_back({built.model.bodies[index(column.stress->body)].name,
                      peak.value, peak.time, column.stress->tags[index(place)],
                      column.stress->layer_of(index(place)),

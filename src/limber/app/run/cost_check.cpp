@@ -36,11 +36,12 @@ results::History repeat_start(const scene::BuiltScene& built, int outputs) {
   history.columns = runs::list_columns(built.probes);
   const std::vector<double> row =
       scene::evaluate_all(built.probes, built.model, built.initial);
+  dynamics::SystemState state = built.initial;
   for (int i = 0; i < outputs; ++i) {
-    history.times.push_back(built.initial.t + i);
+    state.t = built.initial.t + i;
+    history.times.push_back(state.t);
     history.probe_rows.push_back(row);
-    history.states.push_back(built.initial);
-    history.states.back().t = history.times.back();
+    history.states.push_back(state);
     history.energies.push_back(
         dynamics::calc_energy(built.model, built.initial));
   }
@@ -73,17 +74,6 @@ std::size_t predict_file(const runs::PicturedScene& scene) {
          envelopes;
 }
 
-/// Of a state and its row in a history.
-std::size_t count_bytes(const dynamics::SystemState& state) {
-  const auto numbers = state.eta.size() + state.etadot.size() +
-                       state.maxwell.size() + state.u_H.size() +
-                       state.udot_H.size();
-  return sizeof state + sizeof(dynamics::EnergyBalance) +
-         sizeof(double) * static_cast<std::size_t>(numbers) +
-         sizeof(dynamics::BodyState) * state.bodies.size() +
-         sizeof(joints::CouplerMemory) * state.memory.size();
-}
-
 std::size_t find_largest_memory() {
   rusage used = {};
   getrusage(RUSAGE_SELF, &used);
@@ -97,9 +87,7 @@ CostCheck check_cost(const runs::PicturedScene& scene) {
   CostCheck cost;
   cost.pace = measure_pace(built);
   cost.file_bytes = predict_file(scene);
-  cost.memory_bytes =
-      find_largest_memory() +
-      built.settings.output_times.size() * count_bytes(built.initial);
+  cost.memory_bytes = find_largest_memory();
   return cost;
 }
 

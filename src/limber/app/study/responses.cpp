@@ -109,10 +109,11 @@ double calc_rms(const results::History& history, std::size_t column) {
   const auto& times = history.times;
   if (times.size() < 2) return std::abs(history.probe_rows.back()[column]);
   double sum = 0.0;
+  double a = history.probe_rows.front()[column];
   for (std::size_t i = 1; i < times.size(); ++i) {
-    const double a = history.probe_rows[i - 1][column];
     const double b = history.probe_rows[i][column];
     sum += 0.5 * (times[i] - times[i - 1]) * (a * a + b * b);
+    a = b;
   }
   return std::sqrt(sum / (times.back() - times.front()));
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -21,7 +22,9 @@ namespace {
   throw InputError(fmt::format("'{}' {}: {}", file.string(), what, why));
 }
 
-std::string read_part(const std::filesystem::path& file, const FilePart& part) {
+// Adds a part's bytes to the digest, which must then be the part's.
+void check_part(const std::filesystem::path& file, const FilePart& part,
+                Digest& digest) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     fail(file, "cannot be read", "there is no such file");
@@ -32,15 +35,17 @@ std::string read_part(const std::filesystem::path& file, const FilePart& part) {
          fmt::format("{} bytes, of which {} are missing", part.length,
                      part.length - (error ? 0 : size)));
   }
-  std::string bytes(part.length, '\0');
   std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  Digest digest;
-  digest.add_bytes(bytes.data(), bytes.size());
+  std::string bytes(std::size_t{1} << 20, '\0');
+  for (std::uint64_t left = part.length; in && left > 0;) {
+    const std::size_t count = std::min<std::uint64_t>(left, bytes.size());
+    in.read(bytes.data(), static_cast<std::streamsize>(count));
+    digest.add_bytes(bytes.data(), count);
+    left -= count;
+  }
   if (!in || digest.text() != part.digest) {
     fail(file, "is damaged", "its digest does not match its content");
   }
-  return bytes;
 }
 
 }  // namespace
@@ -51,8 +56,7 @@ AppendFile::AppendFile(std::filesystem::path file) : file_(std::move(file)) {
 
 AppendFile::AppendFile(std::filesystem::path file, const FilePart& part)
     : file_(std::move(file)), length_(part.length) {
-  const std::string bytes = read_part(file_, part);
-  digest_.add_bytes(bytes.data(), bytes.size());
+  check_part(file_, part, digest_);
   open(0);
   cut_off();
 }
@@ -82,14 +86,20 @@ void AppendFile::cut_off() {
   }
 }
 
-void AppendFile::append(std::string_view block) {
-  const std::uint64_t size = block.size();
-  std::string bytes(sizeof(size), '\0');
-  std::memcpy(bytes.data(), &size, sizeof(size));
-  bytes += block;
+void AppendFile::append(const Blocks& next) {
   cut_off();  // remains of a failed attempt
+  std::uint64_t length = length_;
+  Digest digest = digest_;
   try {
-    write(bytes);
+    while (const std::optional<std::string> block = next()) {
+      const std::uint64_t size = block->size();
+      std::string bytes(sizeof(size), '\0');
+      std::memcpy(bytes.data(), &size, sizeof(size));
+      bytes += *block;
+      write(bytes);
+      digest.add_bytes(bytes.data(), bytes.size());
+      length += bytes.size();
+    }
     if (fdatasync(handle_) != 0) {
       fail(file_, "cannot be written", describe_errno());
     }
@@ -97,24 +107,33 @@ void AppendFile::append(std::string_view block) {
     cut_off();
     throw;
   }
-  digest_.add_bytes(bytes.data(), bytes.size());
-  length_ += bytes.size();
+  digest_ = std::move(digest);
+  length_ = length;
 }
 
-std::vector<std::string> read_blocks(const std::filesystem::path& file,
-                                     const FilePart& part) {
-  const std::string bytes = read_part(file, part);
-  std::vector<std::string> blocks;
+void AppendFile::append(std::string block) {
+  std::optional<std::string> left = std::move(block);
+  append([&left] { return std::exchange(left, std::nullopt); });
+}
+
+void visit_blocks(const std::filesystem::path& file, const FilePart& part,
+                  const std::function<void(std::string)>& visit) {
+  Digest digest;
+  check_part(file, part, digest);
+  std::ifstream in(file, std::ios::binary);
   std::uint64_t size = 0;
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof(size) + size) {
-    if (bytes.size() - at < sizeof(size)) fail(file, "is damaged", "cut short");
-    std::memcpy(&size, bytes.data() + at, sizeof(size));
-    if (size > bytes.size() - at - sizeof(size)) {
+  for (std::uint64_t left = part.length; left > 0; left -= size) {
+    if (left < sizeof(size)) fail(file, "is damaged", "cut short");
+    in.read(reinterpret_cast<char*>(&size), sizeof(size));
+    left -= sizeof(size);
+    if (size > left) {
       fail(file, "is damaged", "a block is longer than the file");
     }
-    blocks.push_back(bytes.substr(at + sizeof(size), size));
+    std::string block(size, '\0');
+    in.read(block.data(), static_cast<std::streamsize>(size));
+    if (!in) fail(file, "cannot be read", describe_errno());
+    visit(std::move(block));
   }
-  return blocks;
 }
 
 }  // namespace limber

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "limber/common/records/digest.hpp"
 
@@ -33,8 +33,13 @@ class AppendFile {
   AppendFile& operator=(const AppendFile&) = delete;
   ~AppendFile();
 
+  /// The next block; none at the end.
+  using Blocks = std::function<std::optional<std::string>()>;
+
+  /// All blocks, or none.
   /// @throws InputError if it cannot be written; the file is then as before.
-  void append(std::string_view block);
+  void append(const Blocks& next);
+  void append(std::string block);
 
   /// The whole file so far.
   [[nodiscard]] FilePart part() const { return {length_, digest_.text()}; }
@@ -50,9 +55,11 @@ class AppendFile {
   Digest digest_;
 };
 
-/// The blocks of a part. @throws InputError if the file does not contain it bit
-/// for bit.
-[[nodiscard]] std::vector<std::string> read_blocks(
-    const std::filesystem::path& file, const FilePart& part);
+/// Visits the blocks of a part one after the other, so that only one is in
+/// memory.
+/// @throws InputError, before any visit, if the file does not contain the part
+/// bit for bit.
+void visit_blocks(const std::filesystem::path& file, const FilePart& part,
+                  const std::function<void(std::string)>& visit);
 
 }  // namespace limber

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_dataset.hpp"
 #include "limber/common/files/hdf5_exit.hpp"
 #include "limber/common/files/hdf5_handle.hpp"
 #include "limber/common/files/hdf5_inside.hpp"
@@ -22,6 +23,8 @@ namespace limber {
 namespace {
 
 using hdf5::checked;
+using hdf5::create_dataset;
+using hdf5::Dataset;
 using hdf5::Failure;
 using hdf5::Handle;
 using hdf5::leave_out_times;
@@ -34,79 +37,21 @@ constexpr InputKind kHdf5 = {"HDF5 file", std::uint64_t{1} << 38};
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Handle make_text_type() { return {H5Tcopy(H5T_C_S1), H5Tclose}; }
-
-// One more than the characters, for the terminating zero.
-void set_length(const Handle& type, const std::string& text) {
-  checked(H5Tset_size(type.get(), text.size() + 1));
-}
-
-void add_text_attribute(hid_t object, const char* name,
-                        const std::string& text) {
-  const Handle type = make_text_type();
-  set_length(type, text);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  Handle attribute(H5Acreate2(object, name, type.get(), space.get(),
-                              H5P_DEFAULT, H5P_DEFAULT),
-                   H5Aclose);
-  checked(H5Awrite(attribute.get(), type.get(), text.c_str()));
-  attribute.close();
-}
-
-// A checksum needs chunks: a single one, up to HDF5's size limit.
-void add_checksum(hid_t creation, std::vector<hsize_t> shape) {
-  const hsize_t most = hsize_t{1} << 26;
-  const hsize_t row = std::accumulate(shape.begin() + 1, shape.end(),
-                                      hsize_t{8}, std::multiplies<>());
-  shape[0] = std::clamp(most / row, hsize_t{1}, shape[0]);
-  checked(H5Pset_chunk(creation, static_cast<int>(shape.size()), shape.data()));
-  checked(H5Pset_fletcher32(creation));
-}
-
-hid_t make_space(const std::vector<hsize_t>& shape) {
-  if (shape.empty()) return H5Screate(H5S_SCALAR);
-  return H5Screate_simple(static_cast<int>(shape.size()), shape.data(),
-                          nullptr);
-}
-
-// Values with unit and meaning, as HDF5 stores them.
-struct Dataset {
-  const std::string& name;
-  hid_t type;
-  std::vector<hsize_t> shape;  // empty for one scalar
-  const void* data;
-  const std::string& unit;
-  const std::string& meaning;
-};
-
-void write_checked(hid_t file, const Dataset& values) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  checked(H5Pset_create_intermediate_group(links.get(), 1));
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  leave_out_times(creation.get());
-  const std::vector<hsize_t>& shape = values.shape;
-  const bool is_empty =
-      std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
-  if (!shape.empty() && !is_empty) add_checksum(creation.get(), shape);
-  const Handle space(make_space(shape), H5Sclose);
-  Handle set(H5Dcreate2(file, values.name.c_str(), values.type, space.get(),
-                        links.get(), creation.get(), H5P_DEFAULT),
-             H5Dclose);
-  if (!is_empty) {
-    checked(H5Dwrite(set.get(), values.type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                     values.data));
+void write_checked(hid_t file, const Dataset& values, const void* data) {
+  Handle set = create_dataset(file, values);
+  if (!values.is_empty()) {
+    checked(
+        H5Dwrite(set.get(), values.type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
   }
-  if (!values.unit.empty()) add_text_attribute(set.get(), "unit", values.unit);
-  add_text_attribute(set.get(), "meaning", values.meaning);
+  hdf5::add_attributes(set, values);
   set.close();
 }
 
-void write_dataset(hid_t file, const Dataset& values) {
+void write_dataset(hid_t file, const Dataset& values, const void* data) {
   try {
-    write_checked(file, values);
+    write_checked(file, values, data);
   } catch (const Failure&) {
-    throw Failure(
-        fmt::format("'{}' cannot be written; is the disk full?", values.name));
+    throw hdf5::cannot_write(values.name);
   }
 }
 
@@ -323,8 +268,8 @@ void Hdf5File::write(const std::string& name, const MatrixX& values,
   const std::vector<hsize_t> shape = {static_cast<hsize_t>(rows.rows()),
                                       static_cast<hsize_t>(rows.cols())};
   with_path(file_, [&] {
-    write_dataset(handle_,
-                  {name, H5T_NATIVE_DOUBLE, shape, rows.data(), unit, meaning});
+    write_dataset(handle_, {name, H5T_NATIVE_DOUBLE, shape, unit, meaning},
+                  rows.data());
   });
 }
 
@@ -337,8 +282,8 @@ void Hdf5File::write_single(const std::string& name, const MatrixX& values,
   const std::vector<hsize_t> shape = {static_cast<hsize_t>(rows.rows()),
                                       static_cast<hsize_t>(rows.cols())};
   with_path(file_, [&] {
-    write_dataset(handle_,
-                  {name, H5T_NATIVE_FLOAT, shape, rows.data(), unit, meaning});
+    write_dataset(handle_, {name, H5T_NATIVE_FLOAT, shape, unit, meaning},
+                  rows.data());
   });
 }
 
@@ -347,17 +292,16 @@ void Hdf5File::write(const std::string& name,
                      const std::string& unit, const std::string& meaning) {
   const std::vector<hsize_t> shape = {values.size()};
   with_path(file_, [&] {
-    write_dataset(
-        handle_, {name, H5T_NATIVE_INT64, shape, values.data(), unit, meaning});
+    write_dataset(handle_, {name, H5T_NATIVE_INT64, shape, unit, meaning},
+                  values.data());
   });
 }
 
 void Hdf5File::write(const std::string& name, const std::string& text,
                      const std::string& meaning) {
   with_path(file_, [&] {
-    const Handle type = make_text_type();
-    set_length(type, text);
-    write_dataset(handle_, {name, type.get(), {}, text.c_str(), "", meaning});
+    const Handle type = hdf5::make_text_type(text);
+    write_dataset(handle_, {name, type.get(), {}, "", meaning}, text.c_str());
   });
 }
 
@@ -369,8 +313,8 @@ void Hdf5File::write_array(const std::string& name,
   LIMBER_EXPECT(values.size() == count_entries(shape));
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   with_path(file_, [&] {
-    write_dataset(handle_, {name, H5T_NATIVE_DOUBLE, extents, values.data(),
-                            unit, meaning});
+    write_dataset(handle_, {name, H5T_NATIVE_DOUBLE, extents, unit, meaning},
+                  values.data());
   });
 }
 
@@ -382,8 +326,8 @@ void Hdf5File::write_array(const std::string& name,
   LIMBER_EXPECT(values.size() == count_entries(shape));
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   with_path(file_, [&] {
-    write_dataset(handle_, {name, H5T_NATIVE_INT64, extents, values.data(),
-                            unit, meaning});
+    write_dataset(handle_, {name, H5T_NATIVE_INT64, extents, unit, meaning},
+                  values.data());
   });
 }
 

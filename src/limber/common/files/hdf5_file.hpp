@@ -66,6 +66,8 @@ class Hdf5File {
   void close();
 
  private:
+  friend class Hdf5Rows;
+
   Hdf5File(std::int64_t handle, std::filesystem::path file);
 
   std::int64_t handle_ = -1;

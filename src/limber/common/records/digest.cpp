@@ -13,6 +13,11 @@ struct Digest::State {
 };
 
 Digest::Digest() : state_(std::make_unique<State>()) {}
+Digest::Digest(const Digest& other) : Digest() {
+  XXH3_copyState(state_->hash.get(), other.state_->hash.get());
+}
+Digest::Digest(Digest&& other) noexcept = default;
+Digest& Digest::operator=(Digest&& other) noexcept = default;
 Digest::~Digest() = default;
 
 void Digest::add_bytes(const void* data, std::size_t size) {

@@ -15,8 +15,10 @@ namespace limber {
 class Digest {
  public:
   Digest();
-  Digest(const Digest&) = delete;
+  Digest(const Digest& other);
+  Digest(Digest&& other) noexcept;
   Digest& operator=(const Digest&) = delete;
+  Digest& operator=(Digest&& other) noexcept;
   ~Digest();
 
   void add_bytes(const void* data, std::size_t size);

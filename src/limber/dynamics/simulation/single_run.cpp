@@ -106,15 +106,27 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
                                 const std::vector<double>& times,
                                 const Job& job, const TimeLoop::Visit& visit) {
   job.statistics.exact_modes = exact.count();
-  exact.prepare(times);
+  // Modes at some of the times at once, to bound the memory for them.
+  constexpr std::size_t kPrepared = 4096;
+  std::size_t first = times.size();
+  const auto prepare = [&](std::size_t i) {
+    const std::size_t wanted = i - i % kPrepared;
+    if (wanted == first) return;
+    first = wanted;
+    const auto begin = times.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count =
+        static_cast<std::ptrdiff_t>(std::min(kPrepared, times.size() - first));
+    exact.prepare({begin, begin + count});
+  };
   SystemState rest = exact.take_rest(state);
   SystemState whole = state;
   const TimeLoop::Visit visit_whole = [&](const SystemState& now,
                                           const Losses& losses) {
     const auto i = static_cast<std::size_t>(
         std::lower_bound(times.begin(), times.end(), now.t) - times.begin());
-    exact.join(now, i, whole);
-    const ExactModes::Losses own = exact.losses(i);
+    prepare(i);
+    exact.join(now, i - first, whole);
+    const ExactModes::Losses own = exact.losses(i - first);
     visit(whole, {losses.work + own.work, losses.dissipated + own.dissipated});
   };
   const auto leave = [&] {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/files/spilled_list.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/simulation/settings_check.hpp"
@@ -33,8 +34,8 @@ double to_length(double allowed) { return std::cbrt(allowed); }  // of steps
 // Outputs of a pass, and the logs of its checkpoints.
 struct Record {
   int pass = 0;
-  std::vector<SystemState> states;
-  std::vector<EnergyBalance> balances;
+  SpilledList<SystemState> states;
+  SpilledList<EnergyBalance> balances;
   std::vector<double> log = {};
 };
 
@@ -44,18 +45,15 @@ constexpr auto fields_of(const Record*) {
 
 // Contents of a record from an output on, until another.
 Record cut(const Record& record, std::size_t from, std::size_t to) {
-  const auto first = static_cast<std::ptrdiff_t>(from);
-  const auto last = static_cast<std::ptrdiff_t>(to);
-  return {record.pass,
-          {record.states.begin() + first, record.states.begin() + last},
-          {record.balances.begin() + first, record.balances.begin() + last}};
+  return {record.pass, record.states.read(from, to - from),
+          record.balances.read(from, to - from)};
 }
 
 void append(const Record& part, Record& record) {
-  record.states.insert(record.states.end(), part.states.begin(),
-                       part.states.end());
-  record.balances.insert(record.balances.end(), part.balances.begin(),
-                         part.balances.end());
+  for (const SystemState& state : part.states) record.states.push_back(state);
+  for (const EnergyBalance& balance : part.balances) {
+    record.balances.push_back(balance);
+  }
   record.log.insert(record.log.end(), part.log.begin(), part.log.end());
 }
 

@@ -247,12 +247,11 @@ std::string draw_scene(const std::filesystem::path& file,
   const std::size_t end = history.states.size() - 1;
   std::vector<std::pair<std::string, SystemState>> moments;
   const auto add = [&](const char* what, std::size_t output) {
-    const SystemState& state = history.states[output];
-    moments.emplace_back(
-        fmt::format("{}, t = {:.9g} s", what, state.t),
-        shift_bodies(
-            state,
-            home.offset + home.path.row(Eigen::Index(output)).transpose()));
+    const SystemState state = history.states[output];
+    Vector3 origin = home.offset;
+    if (home.travels) origin += home.path.row(Eigen::Index(output)).transpose();
+    moments.emplace_back(fmt::format("{}, t = {:.9g} s", what, state.t),
+                         shift_bodies(state, origin));
   };
   add("start", 0);
   if (peak.output != 0 && peak.output != end) {
@@ -287,7 +286,7 @@ std::string draw_displacement(const std::filesystem::path& file,
                               const SystemState& start,
                               const SystemState& state, double exaggeration,
                               const Scenery& scenery) {
-  const Home home = find_home(model, {&start, 1});
+  const Home home = find_home(model, {start});
   const std::vector<BodySolid> solids = find_solids(model, scenery);
   const SystemState from = shift_bodies(start, home.offset);
   const SystemState to = shift_bodies(state, home.offset);

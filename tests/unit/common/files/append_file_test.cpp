@@ -39,6 +39,14 @@ void write(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
+std::vector<std::string> read_blocks(const fs::path& file,
+                                     const FilePart& part) {
+  std::vector<std::string> blocks;
+  visit_blocks(file, part,
+               [&](std::string block) { blocks.push_back(std::move(block)); });
+  return blocks;
+}
+
 TEST_F(AppendFiles, GiveBackTheirBlocksAndGoOnAfterAPart) {
   FilePart part;
   {
@@ -82,6 +90,15 @@ TEST_F(AppendFiles, AreAsBeforeWhenTheDiskIsFull) {
   limit.rlim_cur = 100;
   setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_THROW(log.append(std::string(1000, 'x')), InputError);
+  std::vector<std::string> left = {std::string(1000, 'x'), "fits"};
+  EXPECT_THROW(log.append([&]() -> std::optional<std::string> {
+    if (left.empty()) return std::nullopt;
+    std::string next = left.back();
+    left.pop_back();
+    return next;
+  }),
+               InputError);
+  EXPECT_TRUE(left.empty());
   setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_EQ(fs::file_size(file_), before.length);
