@@ -137,6 +137,27 @@ TEST_F(CheckpointFile, AppendsWhatIsNewAndRewritesNothing) {
   EXPECT_EQ(fs::file_size(file_), head);
 }
 
+// More outputs than a block of the log holds.
+TEST_F(CheckpointFile, HoldsAnyNumberOfOutputsSinceTheOneBefore) {
+  History many = cut(history_, 2);
+  CheckpointWriter writer(file_, make_manifest());
+  writer.write({0.1, {1.0}, {1.0}, 2}, many);
+  for (const std::size_t more : {64U, 65U, 1000U}) {
+    for (std::size_t i = 0; i < more; ++i) {
+      const std::size_t from = i % history_.times.size();
+      many.times.push_back(static_cast<double>(i));
+      many.probe_rows.push_back(history_.probe_rows[from]);
+      many.states.push_back(history_.states[from]);
+      many.energies.push_back(history_.energies[from]);
+    }
+    writer.write({0.2, {2.0}, {2.0}, many.times.size()}, many);
+    const CheckpointRecord record = read_checkpoint(file_);
+    EXPECT_EQ(record.run.outputs, many.times.size());
+    expect_same(record.history, many);
+  }
+  EXPECT_THAT(read_checkpoint(file_).run.log, ElementsAre(1.0, 2.0, 2.0, 2.0));
+}
+
 TEST_F(CheckpointFile, RefusesEveryFlippedByteAndEveryCut) {
   CheckpointWriter(file_, make_manifest())
       .write({0.1, {1.0, 2.0}, {3.0}, 2}, cut(history_, 2));

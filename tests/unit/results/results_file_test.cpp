@@ -153,6 +153,39 @@ TEST(ResultsFile, StatesAreThoseOfTheRunToTheLastBit) {
   }
 }
 
+// Most of them are in the temporary file, and matrices have several parts.
+TEST(ResultsFile, OfManyOutputsHasEachInItsRow) {
+  SmallRun run = make_small_run();
+  const History few = run.history;
+  run.history = {};
+  run.history.columns = few.columns;
+  constexpr std::size_t kMany = 20001;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    run.history.times.push_back(static_cast<double>(i));
+    run.history.probe_rows.push_back(few.probe_rows[i % kOutputs]);
+    run.history.states.push_back(few.states[i % kOutputs]);
+    run.history.energies.push_back(few.energies[i % kOutputs]);
+  }
+  EXPECT_LT(run.history.states.held_bytes(), std::size_t{1} << 20);
+  const TemporaryFolder folder;
+  write_results(folder.path() / "few.h5", run.model, few);
+  write_results(folder.path() / "many.h5", run.model, run.history);
+  const Hdf5File in = Hdf5File::open(folder.path() / "few.h5");
+  const Hdf5File many = Hdf5File::open(folder.path() / "many.h5");
+  EXPECT_EQ(many.read_matrix("time")(kMany - 1, 0), kMany - 1.0);
+  for (const char* name :
+       {"bodies/arm/p_WB", "bodies/arm/quat_WB", "bodies/hand/etadot",
+        "bodies/ball/w_WB_B", "probes/tip.wy", "energy/work",
+        "momentum/angular"}) {
+    const MatrixX expected = in.read_matrix(name);
+    const MatrixX found = many.read_matrix(name);
+    ASSERT_EQ(found.rows(), Eigen::Index{kMany});
+    for (Eigen::Index i = 0; i < found.rows(); ++i) {
+      ASSERT_EQ(found.row(i), expected.row(i % kOutputs)) << name << ' ' << i;
+    }
+  }
+}
+
 TEST(ResultsFile, ScalarsAreThoseOfTheRunToTheLastBit) {
   const SmallRun run = make_small_run();
   const auto all = write_and_read(run);

@@ -102,6 +102,34 @@ TEST(ExactModes, ClampedBodyUnderAStepLoadHasTheClosedFormWithoutSteps) {
   EXPECT_EQ(r.state.eta, r.states.back().eta);
 }
 
+// The modes are evaluated for some of the outputs at a time.
+TEST(ExactModes, AtManyOutputsHaveTheClosedFormAndKeepEnergy) {
+  Scene scene(make_body(2, true));
+  scene.push(Constant{});
+  const SystemModel model = scene.builder.build();
+  std::vector<double> times;
+  for (int i = 0; i < 10000; ++i) times.push_back(1e-3 * i);
+  const Outcome r =
+      run(model, make_state(model),
+          {.end_time = times.back(), .step = 1.0, .output_times = times});
+  ASSERT_EQ(r.states.size(), times.size());
+  const VectorX F = scene.modal_force();
+  double most = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    ASSERT_EQ(r.states[i].t, times[i]);
+    for (int k = 0; k < 2; ++k) {
+      const double omega = kLowest * (1.0 + 0.5 * k);
+      const double scale = std::abs(F[k]) / (omega * omega);
+      ASSERT_NEAR(r.states[i].eta[k],
+                  F[k] / (omega * omega) * (1.0 - std::cos(omega * times[i])),
+                  scale * 1e-15 * (10.0 + omega * times[i]));
+    }
+    most = std::max(most, r.energies[i].total());
+    ASSERT_NEAR(audit(r.energies[i]), 0.0, 1e-12 * most) << i;
+  }
+  EXPECT_GT(most, 0.0);
+}
+
 // A slow stranger with 1e10 times the energy hid the oscillation of a body.
 TEST(ExactModes, AreLookedAtInThePeriodsOfEachBodyThatMoves) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
