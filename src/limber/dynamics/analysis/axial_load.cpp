@@ -65,6 +65,12 @@ AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
   const BodyModel& body = model.bodies[index(body_)];
   stretch_ = VectorX::Zero(body.modes);
   if (body.modes == 0 || body.clamped || !body.reduced) return;
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const Coupler& coupler = model.couplers[c];
+    if (is_on_body(coupler.frame_F) || is_on_body(coupler.frame_M)) {
+      couplers_.push_back(c);
+    }
+  }
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   double lowest = lambda.minCoeff();
   for (const Attachment* a : find_holds(model, body_)) {
@@ -85,6 +91,10 @@ AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
   }
 }
 
+bool AxialLoad::is_on_body(AttachmentIndex frame) const {
+  return model_->attachments[index(frame)].body == body_;
+}
+
 Matrix3 AxialLoad::calc_stress(const SystemState& state, Side side,
                                const SystemTerms& terms) const {
   const Vector3& w = state.bodies[index(body_)].w_WB_B;
@@ -92,10 +102,10 @@ Matrix3 AxialLoad::calc_stress(const SystemState& state, Side side,
   const Matrix3 rotation = skew(w) * skew(w);
   Matrix3 T = -S0_ * rotation;
   const auto add = [&](AttachmentIndex where, const Vector3& force_B) {
-    if (model_->attachments[index(where)].body != body_) return;
+    if (!is_on_body(where)) return;
     T += terms.attachments[index(where)].arm_B * force_B.transpose();
   };
-  for (std::size_t c = 0; c < model_->couplers.size(); ++c) {
+  for (const std::size_t c : couplers_) {
     const Coupler& coupler = model_->couplers[c];
     const Vector3 force_B =
         R_BW * (terms.attachments[index(coupler.frame_F)].R_WF *
@@ -138,19 +148,26 @@ AxialState AxialLoad::calc_state(const SystemState& state, Side side,
   return largest;
 }
 
-InterfaceRotation find_rotation(const SystemModel& model, BodyIndex body,
-                                const VectorX& eta) {
+std::vector<const Attachment*> find_interfaces(const SystemModel& model,
+                                               BodyIndex body) {
+  std::vector<const Attachment*> interfaces;
+  for (const Attachment& a : model.attachments) {
+    if (a.body == body) interfaces.push_back(&a);
+  }
+  return interfaces;
+}
+
+InterfaceRotation find_rotation(
+    const std::vector<const Attachment*>& interfaces, const VectorX& eta) {
   InterfaceRotation rotation;
-  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
-    const Attachment& a = model.attachments[i];
-    if (a.body != body || a.Psi_B.cols() != eta.size()) continue;
-    const Vector3 own = a.Psi_B * eta;
+  for (auto a = interfaces.begin(); a != interfaces.end(); ++a) {
+    if ((*a)->Psi_B.cols() != eta.size()) continue;
+    const Vector3 own = (*a)->Psi_B * eta;
     rotation.own = std::max(rotation.own, own.norm());
-    for (std::size_t j = 0; j < i; ++j) {
-      const Attachment& b = model.attachments[j];
-      if (b.body != body || b.Psi_B.cols() != eta.size()) continue;
+    for (auto b = interfaces.begin(); b != a; ++b) {
+      if ((*b)->Psi_B.cols() != eta.size()) continue;
       rotation.relative =
-          std::max(rotation.relative, (own - b.Psi_B * eta).norm());
+          std::max(rotation.relative, (own - (*b)->Psi_B * eta).norm());
     }
   }
   return rotation;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "limber/common/types.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -49,11 +51,13 @@ class AxialLoad {
   [[nodiscard]] bool is_held() const { return is_held_; }
 
  private:
+  [[nodiscard]] bool is_on_body(AttachmentIndex frame) const;
   [[nodiscard]] Matrix3 calc_stress(const SystemState& state, Side side,
                                     const SystemTerms& terms) const;
 
   const SystemModel* model_;
   BodyIndex body_;
+  std::vector<std::size_t> couplers_;  // that end on it
   bool is_held_ = false;
   double frequency_ = 0.0;
   Matrix3 axes_ = Matrix3::Identity();  // columns, principal axes of S0
@@ -70,8 +74,10 @@ struct InterfaceRotation {
   double relative = 0.0;
 };
 /// To first order in eta. @param eta m, the body's modal coordinates [kg^1/2 m]
-[[nodiscard]] InterfaceRotation find_rotation(const SystemModel& model,
-                                              BodyIndex body,
-                                              const VectorX& eta);
+[[nodiscard]] InterfaceRotation find_rotation(
+    const std::vector<const Attachment*>& interfaces, const VectorX& eta);
+/// Attachments on a body, valid as long as the model.
+[[nodiscard]] std::vector<const Attachment*> find_interfaces(
+    const SystemModel& model, BodyIndex body);
 
 }  // namespace limber::dynamics

@@ -74,7 +74,8 @@ LevelObserver::Observed::Observed(
       loads(*anywhere),
       total(*anywhere),
       deformation(*own),
-      axial(model, index_of_body) {
+      axial(model, index_of_body),
+      interfaces(find_interfaces(model, index_of_body)) {
   const BodyModel& b = model.bodies[index(body)];
   LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled ||
                 b.fidelity == Fidelity::nonlinear);
@@ -271,7 +272,7 @@ void LevelObserver::include_deformation(const SystemState& state,
   include_largest(observed.peaks.oscillation, observed.swings);
   observed.total.include(eta, state.t);
   observed.deformation.include(eta, state.t);
-  const InterfaceRotation rotation = find_rotation(model_, observed.body, eta);
+  const InterfaceRotation rotation = find_rotation(observed.interfaces, eta);
   include_largest(observed.peaks.rotation, rotation.own, state.t);
   include_largest(observed.peaks.relative_rotation, rotation.relative, state.t);
   observed.peaks.modes = observed.peaks.modes.cwiseMax(eta.cwiseAbs());

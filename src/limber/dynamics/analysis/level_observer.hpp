@@ -115,6 +115,7 @@ class LevelObserver {
     PeakDisplacement total;
     PeakDisplacement deformation;
     AxialLoad axial;
+    std::vector<const Attachment*> interfaces;
     double last_fraction = 0.0;    ///< of the buckling load [-]
     double last_strain = 0.0;      ///< magnitude of the mean strain [-]
     bool is_observed = false;      ///< source computes its modes

@@ -163,7 +163,8 @@ void DisplacementMeasure::find_mode_sizes() {
   }
 }
 
-double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
+double DisplacementMeasure::calc_displacement(const VectorX& eta,
+                                              int& leaf) const {
   LIMBER_EXPECT(eta.size() == nodes_->reduced().lambda.size());
   if (eta.size() == 0) return 0.0;
   double largest = 0.0;
@@ -173,7 +174,7 @@ double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
   }
   // Skips the many own nodes if they cannot be the largest.
   if (node_sizes_.dot(eta.cwiseAbs()) <= largest) return largest;
-  return nodes_->tree().find_largest(eta, largest);
+  return nodes_->tree().find_largest(eta, largest, leaf);
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)
@@ -190,7 +191,7 @@ bool PeakDisplacement::is_record(const VectorX& eta, double t) {
   const double from_zero = measure_->mode_sizes().dot(eta.cwiseAbs());
   if (from_zero <= (1.0 + kLow) * peak_.value) return false;
   eta_0_ = eta;
-  u_0_ = measure_->calc_displacement(eta);
+  u_0_ = measure_->calc_displacement(eta, leaf_);
   const bool is_larger = u_0_ > peak_.value;
   peak_.include(u_0_, t);
   return is_larger;
@@ -200,8 +201,8 @@ void PeakDisplacement::include(const VectorX& eta, double t) {
   const Peak before = peak_;
   const bool is_larger = is_record(eta, t);
   if (was_record_ && !is_larger && count_ == 2) {
-    const Peak a{measure_->calc_displacement(eta_a_), t_a_};
-    const Peak c{measure_->calc_displacement(eta), t};
+    const Peak a{measure_->calc_displacement(eta_a_, leaf_), t_a_};
+    const Peak c{measure_->calc_displacement(eta, leaf_), t};
     peak_.include(c.value, c.time);
     const Peak top = find_top(a, before, c);
     peak_.include(top.value, top.time);
@@ -215,7 +216,8 @@ void PeakDisplacement::include(const VectorX& eta, double t) {
 }
 
 void PeakDisplacement::exchange_memory(Archive& archive) {
-  archive(eta_0_, u_0_, peak_, eta_a_, eta_b_, t_a_, t_b_, count_, was_record_);
+  archive(eta_0_, u_0_, leaf_, peak_, eta_a_, eta_b_, t_a_, t_b_, count_,
+          was_record_);
 }
 
 }  // namespace limber::dynamics

@@ -60,7 +60,12 @@ class DisplacementMeasure {
                       const std::vector<double>& reaches);
 
   /// [m] @param eta m modal coordinates [kg^1/2 m]
-  [[nodiscard]] double calc_displacement(const VectorX& eta) const;
+  [[nodiscard]] double calc_displacement(const VectorX& eta) const {
+    int leaf = -1;
+    return calc_displacement(eta, leaf);
+  }
+  /// @param leaf as of DisplacementTree, for a course of coordinates
+  [[nodiscard]] double calc_displacement(const VectorX& eta, int& leaf) const;
   /// Displacement per unit of each mode alone, m [kg^-1/2].
   [[nodiscard]] const VectorX& mode_sizes() const { return mode_sizes_; }
 
@@ -99,6 +104,7 @@ class PeakDisplacement {
   const DisplacementMeasure* measure_;
   VectorX eta_0_;     ///< the last one measured
   double u_0_ = 0.0;  ///< its displacement [m]
+  int leaf_ = -1;     ///< where it was
   Peak peak_;
   // The last two samples, and whether the last one is the largest.
   VectorX eta_a_;

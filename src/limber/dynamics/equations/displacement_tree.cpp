@@ -74,18 +74,26 @@ double DisplacementTree::find_bound(int box, const VectorX& eta) const {
   return u.norm() + bound.col(3).dot(eta.cwiseAbs());
 }
 
-double DisplacementTree::search(int box, const VectorX& eta,
-                                double largest) const {
+void DisplacementTree::search_leaf(int box, const VectorX& eta,
+                                   Found& found) const {
+  const Box& here = boxes_[index(box)];
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 * kLeaf, 1> u(3 * here.count);
+  u.noalias() =
+      rows_.middleCols(Eigen::Index{3} * here.first, u.size()).transpose() *
+      eta;
+  for (Eigen::Index i = 0; i < u.size(); i += 3) {
+    const double length = u.segment<3>(i).norm();
+    if (length > found.largest) found = {length, box};
+  }
+}
+
+// All leaves below a box but the one that was searched before.
+void DisplacementTree::search(int box, const VectorX& eta, int searched,
+                              Found& found) const {
   const Box& here = boxes_[index(box)];
   if (here.left < 0) {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 * kLeaf, 1> u(3 * here.count);
-    u.noalias() =
-        rows_.middleCols(Eigen::Index{3} * here.first, u.size()).transpose() *
-        eta;
-    for (Eigen::Index i = 0; i < u.size(); i += 3) {
-      largest = std::max(largest, u.segment<3>(i).norm());
-    }
-    return largest;
+    if (box != searched) search_leaf(box, eta, found);
+    return;
   }
   struct Child {
     int box;
@@ -95,15 +103,20 @@ double DisplacementTree::search(int box, const VectorX& eta,
   Child far{here.right, find_bound(here.right, eta)};
   if (near.bound < far.bound) std::swap(near, far);
   for (const Child& child : {near, far}) {
-    if (child.bound <= largest) break;
-    largest = search(child.box, eta, largest);
+    if (child.bound <= found.largest) break;
+    search(child.box, eta, searched, found);
   }
-  return largest;
 }
 
-double DisplacementTree::find_largest(const VectorX& eta, double least) const {
+double DisplacementTree::find_largest(const VectorX& eta, double least,
+                                      int& leaf) const {
   if (boxes_.empty() || eta.size() == 0) return least;
-  return search(0, eta, least);
+  Found found{least, leaf};
+  const int first = leaf;
+  if (first >= 0) search_leaf(first, eta, found);
+  search(0, eta, first, found);
+  leaf = found.leaf;
+  return found.largest;
 }
 
 }  // namespace limber::dynamics

@@ -21,9 +21,16 @@ class DisplacementTree {
 
   /// max_n |Phi_n eta| [m], or `least` if that is not exceeded.
   /// @param eta m modal coordinates [kg^1/2 m]
-  [[nodiscard]] double find_largest(const VectorX& eta, double least) const;
+  /// @param leaf a box that is searched first, as the last one was for similar
+  /// coordinates, -1: none; set to the one with the node
+  [[nodiscard]] double find_largest(const VectorX& eta, double least,
+                                    int& leaf) const;
 
  private:
+  struct Found {
+    double largest = 0.0;  // [m]
+    int leaf = -1;         // with its node
+  };
   struct Box {
     int first = 0;  // of its nodes in rows_
     int count = 0;
@@ -33,8 +40,8 @@ class DisplacementTree {
   int add_box(const Matrix3X& x, const MatrixX& Phi, std::vector<int>& nodes,
               int first, int count);
   [[nodiscard]] double find_bound(int box, const VectorX& eta) const;
-  [[nodiscard]] double search(int box, const VectorX& eta,
-                              double largest) const;
+  void search_leaf(int box, const VectorX& eta, Found& found) const;
+  void search(int box, const VectorX& eta, int searched, Found& found) const;
 
   std::vector<Box> boxes_;
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 4>> bounds_;  // m x 4

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
@@ -37,7 +38,9 @@ double find_size(const SystemModel& model, AttachmentIndex from) {
 }  // namespace
 
 DeflectionObserver::DeflectionObserver(const SystemModel& model)
-    : model_(model), groups_(find_linked_groups(model)) {
+    : model_(model),
+      groups_(find_linked_groups(model)),
+      elastic_(groups_.size()) {
   std::vector<std::size_t> group_of(model.bodies.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     for (const BodyIndex b : groups_[g]) {
@@ -65,8 +68,21 @@ DeflectionObserver::DeflectionObserver(const SystemModel& model)
   }
 }
 
+double DeflectionObserver::find_elastic(std::size_t group,
+                                        const SystemState& state,
+                                        const SystemTerms& terms) {
+  if (elastic_[group]) return *elastic_[group];
+  double sum = 0.0;
+  for (const BodyIndex b : groups_[group]) {
+    sum += find_elastic_energy(model_, index(b), state, terms);
+  }
+  elastic_[group] = sum;
+  return sum;
+}
+
 void DeflectionObserver::include(const SystemState& state,
                                  const SystemTerms& terms) {
+  std::fill(elastic_.begin(), elastic_.end(), std::nullopt);
   for (Constraint& constraint : constraints_) {
     const joints::ConstraintDeflection deflection = joints::find_deflection(
         model_.couplers[constraint.coupler].law, constraint.stiffness,
@@ -85,11 +101,7 @@ void DeflectionObserver::include(const SystemState& state,
                               deflection.rotation * deflection.rotation;
     if (energy > constraint.energy) {
       constraint.energy = energy;
-      constraint.elastic = 0.0;
-      for (const BodyIndex b : groups_[constraint.group]) {
-        constraint.elastic += find_elastic_energy(
-            model_, static_cast<std::size_t>(b), state, terms);
-      }
+      constraint.elastic = find_elastic(constraint.group, state, terms);
       constraint.energy_time = state.t;
     }
   }

@@ -79,6 +79,8 @@ class DeflectionObserver {
       return elastic > 0.0 ? energy / elastic : 0.0;
     }
   };
+  double find_elastic(std::size_t group, const SystemState& state,
+                      const SystemTerms& terms);
   [[nodiscard]] std::string describe(const Constraint& constraint) const;
   [[nodiscard]] std::string describe_fraction(
       const Constraint& constraint) const;
@@ -88,6 +90,8 @@ class DeflectionObserver {
 
   const SystemModel& model_;
   std::vector<std::vector<BodyIndex>> groups_;
+  // Elastic energies of groups at one state, as far as they are needed [J].
+  std::vector<std::optional<double>> elastic_;
   std::vector<Constraint> constraints_;
 };
 

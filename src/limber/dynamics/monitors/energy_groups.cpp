@@ -61,6 +61,10 @@ Eigen::Index EnergyGroups::find_root(Eigen::Index row) const {
 
 void EnergyGroups::settle_roots() {
   for (Eigen::Index& parent : parents_) parent = find_root(parent);
+  roots_.clear();
+  for (std::size_t i = 0; i < parents_.size(); ++i) {
+    if (group_of(i) == i) roots_.push_back(i);
+  }
 }
 
 std::size_t EnergyGroups::group_of(std::size_t row) const {
@@ -133,9 +137,7 @@ bool EnergyGroups::connect(const PairTerms& pairs,
   if (!has_joined) return false;
   settle_roots();
   sum_up(accounts);
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    groups_[i].work = sums_[i].work;
-  }
+  for (const std::size_t i : roots_) groups_[i].work = sums_[i].work;
   return true;
 }
 
@@ -187,7 +189,7 @@ void EnergyGroups::include_extremes(std::size_t root) {
 }
 
 bool EnergyGroups::has_new_drift() const {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  for (const std::size_t i : roots_) {
     const double drift = std::abs(sums_[i].error);
     if (drift > kLeastGrowth * std::abs(groups_[i].drift.value) &&
         drift > kNoteworthy * groups_[i].throughput) {
@@ -200,7 +202,7 @@ bool EnergyGroups::has_new_drift() const {
 void EnergyGroups::include(const std::vector<EnergyAccount>& accounts,
                            double t) {
   double drift = 0.0;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  for (const std::size_t i : roots_) {
     Group& group = groups_[i];
     group.observer.add(sums_[i].work - group.work);
     group.work = sums_[i].work;
@@ -227,7 +229,7 @@ void EnergyGroups::note_place(std::size_t root,
 
 std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(bool is_end) {
   std::optional<Excess> excess;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  for (const std::size_t i : roots_) {
     Group& group = groups_[i];
     if (group.observer.is_blown_up(sums_[i].stored, is_end, sums_[i].rest) &&
         !excess) {
@@ -238,7 +240,7 @@ std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(bool is_end) {
 }
 
 bool EnergyGroups::has_too_much() const {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  for (const std::size_t i : roots_) {
     if (groups_[i].observer.is_too_much(sums_[i].stored, sums_[i].rest)) {
       return true;
     }
@@ -281,6 +283,7 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
 
 void EnergyGroups::exchange_memory(Archive& archive) {
   archive(has_met_, parents_, groups_, drift_);
+  if (archive.reads()) settle_roots();
 }
 
 }  // namespace limber::dynamics

@@ -106,6 +106,7 @@ class EnergyGroups {
   bool lags_;
   std::vector<char> has_met_;          // of pairs: they have touched
   std::vector<Eigen::Index> parents_;  // of rows; a root is its own
+  std::vector<std::size_t> roots_;     // increasing
   std::vector<Group> groups_;          // at roots
   std::vector<Sums> sums_;             // likewise
   Extreme drift_;

@@ -8,6 +8,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 
 namespace limber::dynamics {
@@ -37,6 +38,20 @@ double find_power(const joints::PairResponse& pair) {
 
 }  // namespace
 
+double sum_coupler_energies(const SystemTerms& terms) {
+  double sum = 0.0;
+  for (const CouplerTerms& coupler : terms.couplers) {
+    sum += coupler.response.energy;
+  }
+  for (const TransmissionTerms& transmission : terms.transmissions) {
+    sum += transmission.response.energy;
+  }
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    sum += pair.energy;
+  }
+  return sum;
+}
+
 EnergyObserver::EnergyObserver(const SystemModel& model,
                                IntegratorKind integrator)
     : model_(model),
@@ -46,7 +61,8 @@ EnergyObserver::EnergyObserver(const SystemModel& model,
       groups_(model, integrator == IntegratorKind::explicit_euler),
       accounts_(static_cast<std::size_t>(rows_.count)),
       next_(accounts_),
-      scratch_(model.bodies.size()) {
+      scratch_(model.bodies.size()),
+      peak_(make_state(model)) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const UnknownRanges unknowns = list_unknowns(model, b);
     const bool is_free = unknowns.begin() != unknowns.end() &&
@@ -79,10 +95,10 @@ EnergyObserver::Sums EnergyObserver::evaluate(const SystemState& state,
     sums.kinetic += next_[row].kinetic;
     sums.elastic += elastic;
   }
+  sums.coupler = sum_coupler_energies(terms);
   const auto set = [&](double energy, double power) {
     next_[row].stored = energy;
     next_[row++].power = power;
-    sums.coupler += energy;
   };
   for (const CouplerTerms& coupler : terms.couplers) {
     set(coupler.response.energy, coupler.received);
@@ -162,11 +178,11 @@ void EnergyObserver::advance(double t, const EnergyFlows& flows) {
   }
 }
 
-void EnergyObserver::include_energies(const Sums& sums, double t) {
+// All but the energy of couplers alone.
+void EnergyObserver::include_bodies(const Sums& sums, double t) {
   record_.stored.include(sums.total(), t);
   record_.kinetic.include(sums.kinetic, t);
   record_.elastic.include(sums.elastic, t);
-  record_.coupler.include(sums.coupler, t);
 }
 
 void EnergyObserver::start(const SystemState& state, const SystemTerms& terms,
@@ -181,15 +197,9 @@ void EnergyObserver::start(const SystemState& state, const SystemTerms& terms,
   record_ = {};
   groups_.start(accounts_, taken);
   groups_.connect(terms.pairs, accounts_);
-  include_energies(sums, state.t);
-}
-
-bool EnergyObserver::is_remarkable(const Sums& sums) const {
-  const auto grows = [](double now, const Extreme& before) {
-    return now > kLeastGrowth * std::abs(before.value);
-  };
-  return grows(sums.total(), record_.stored) ||
-         grows(sums.coupler, record_.coupler);
+  include_bodies(sums, state.t);
+  record_.coupler.include(sums.coupler, state.t);
+  has_peak_ = false;
 }
 
 void EnergyObserver::restart(const SystemState& state,
@@ -208,6 +218,7 @@ void EnergyObserver::add(const SystemState& state, const SystemTerms& terms,
   advance(state.t, flows);
   groups_.sum_up(next_);
   accept(sums, terms, state.t);
+  record_.coupler.include(sums.coupler, state.t);
 }
 
 bool EnergyObserver::try_add(const SystemState& state, const SystemTerms& terms,
@@ -215,11 +226,26 @@ bool EnergyObserver::try_add(const SystemState& state, const SystemTerms& terms,
   const Sums sums = evaluate(state, terms);
   set_jitter(state, state.t - time_);
   advance(state.t, flows);
-  if (is_remarkable(sums)) return false;
   groups_.sum_up(next_);
   if (groups_.has_new_drift()) return false;
   accept(sums, terms, state.t);
+  if (!(sums.coupler > kLeastGrowth * std::abs(record_.coupler.value))) {
+    record_.coupler.include(sums.coupler, state.t);
+  } else if (!has_peak_ || sums.coupler > peak_energy_) {
+    has_peak_ = true;
+    peak_energy_ = sums.coupler;
+    peak_ = state;
+  }
   return true;
+}
+
+bool EnergyObserver::has_passed_peak(const SystemTerms& terms) const {
+  return has_peak_ && sum_coupler_energies(terms) < peak_energy_;
+}
+
+void EnergyObserver::include_peak(const SystemTerms& terms) {
+  record_.coupler.include(sum_coupler_energies(terms), peak_.t);
+  has_peak_ = false;
 }
 
 void EnergyObserver::accept(const Sums& sums, const SystemTerms& terms,
@@ -228,7 +254,7 @@ void EnergyObserver::accept(const Sums& sums, const SystemTerms& terms,
   accounts_.swap(next_);
   time_ = t;
   ++steps_;
-  include_energies(sums, t);
+  include_bodies(sums, t);
   groups_.include(accounts_, t);
 }
 
@@ -306,7 +332,7 @@ EnergyRecord EnergyObserver::find_record(const VectorX& negligible) const {
 
 void EnergyObserver::exchange_memory(Archive& archive) {
   archive(accounts_, time_, steps_, record_.stored, record_.kinetic,
-          record_.elastic, record_.coupler);
+          record_.elastic, record_.coupler, has_peak_, peak_energy_, peak_);
   groups_.exchange_memory(archive);
   if (archive.reads()) groups_.sum_up(accounts_);
 }

@@ -41,10 +41,22 @@ class EnergyObserver {
   void add(const SystemState& state, const SystemTerms& terms,
            const EnergyFlows& flows);
   /// The same with approximate terms, which contain the remaining error of
-  /// Newton's method in stiff couplers and contacts. @returns false, without
-  /// effect, if they would give a new extreme, which needs exact terms
+  /// Newton's method in stiff couplers and contacts. More energy in these than
+  /// ever before is not recorded but kept with its state, the peak. @returns
+  /// false, without effect, if they would give a new extreme of a drift, which
+  /// needs exact terms
   [[nodiscard]] bool try_add(const SystemState& state, const SystemTerms& terms,
                              const EnergyFlows& flows);
+  /// The state of try_add() whose energy of couplers is still to be recorded,
+  /// null if there is none.
+  [[nodiscard]] const SystemState* peak() const {
+    return has_peak_ ? &peak_ : nullptr;
+  }
+  /// Whether couplers have less energy by `terms` than at the peak, which will
+  /// not grow on.
+  [[nodiscard]] bool has_passed_peak(const SystemTerms& terms) const;
+  /// Records the peak. @param terms exact, there
+  void include_peak(const SystemTerms& terms);
   /// Forces jump at `state`: the next step begins with new ones.
   void restart(const SystemState& state, const SystemTerms& terms);
 
@@ -95,10 +107,9 @@ class EnergyObserver {
   void set_jitter(const SystemState& state, double h);
   // Sets next_ to the accounts after a step with what was evaluated.
   void advance(double t, const EnergyFlows& flows);
-  [[nodiscard]] bool is_remarkable(const Sums& sums) const;
   [[nodiscard]] Vector3 find_mean_velocity(const Pair& pair) const;
   void accept(const Sums& sums, const SystemTerms& terms, double t);
-  void include_energies(const Sums& sums, double t);
+  void include_bodies(const Sums& sums, double t);
 
   const SystemModel& model_;
   // Whether work is that of the forces at both ends of a step, from which the
@@ -112,6 +123,12 @@ class EnergyObserver {
   double time_ = 0.0;                // of accounts_ [s]
   double steps_ = 0.0;
   EnergyRecord record_;
+  bool has_peak_ = false;
+  double peak_energy_ = 0.0;  // of couplers, by approximate terms [J]
+  SystemState peak_;
 };
+
+/// Energy in couplers, transmissions and pairs [J].
+[[nodiscard]] double sum_coupler_energies(const SystemTerms& terms);
 
 }  // namespace limber::dynamics

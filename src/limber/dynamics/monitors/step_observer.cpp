@@ -54,8 +54,9 @@ void StepObserver::include(const SystemState& state, const SystemTerms* terms,
   const bool has_event = terms == nullptr;
   if (!has_event && !is_exact && steps_ % stride_ != 0) return;
   const SystemTerms* now = terms;
-  if (has_event || is_exact || stride_ > 1 ||
-      !energy_observer_.try_add(state, *terms, flows)) {
+  const bool needs_exact = has_event || is_exact || stride_ > 1;
+  if (needs_exact || energy_observer_.has_passed_peak(*terms)) record_peak();
+  if (needs_exact || !energy_observer_.try_add(state, *terms, flows)) {
     now = &evaluate(state, Side::left);
     energy_observer_.add(state, *now, flows);
   }
@@ -63,12 +64,24 @@ void StepObserver::include(const SystemState& state, const SystemTerms* terms,
   limits_.include(state, *now, events);
 }
 
+void StepObserver::record_peak() {
+  const SystemState* peak = energy_observer_.peak();
+  if (peak == nullptr) return;
+  energy_observer_.include_peak(evaluate(*peak, Side::left));
+}
+
 EnergyRecord StepObserver::find_energy() const {
   const EnergyRows rows(model_);
   VectorX negligible = VectorX::Zero(rows.count);
   deflection_.add_negligible_energies(
       negligible.segment(rows.couplers, std::ssize(model_.couplers)));
-  return energy_observer_.find_record(negligible);
+  EnergyRecord record = energy_observer_.find_record(negligible);
+  if (const SystemState* peak = energy_observer_.peak()) {
+    SystemTerms terms = make_terms(model_);
+    calc_terms(model_, *peak, Side::left, terms);
+    record.coupler.include(sum_coupler_energies(terms), peak->t);
+  }
+  return record;
 }
 
 void StepObserver::add_warnings(std::vector<std::string>& warnings) const {

@@ -62,6 +62,7 @@ class StepObserver {
  private:
   [[nodiscard]] const SystemTerms& evaluate(const SystemState& state,
                                             Side side);
+  void record_peak();
 
   const SystemModel& model_;
   EnergyObserver energy_observer_;

@@ -7,7 +7,9 @@ namespace limber::dynamics {
 
 /// Rotates the rows of a coupler's stiffness, forces and moments separately,
 /// such that rows of free directions vanish. Mixed with constrained rows, they
-/// would be lost in their round-off, which elimination would spread.
+/// would be lost in their round-off, which elimination would spread. Rows that
+/// are free or dominated by their own direction stay, as those of a joint along
+/// an axis of its frame.
 /// @returns the rotation; its rows are those of the new K
 [[nodiscard]] Matrix6 separate_free_rows(Matrix6& K);
 

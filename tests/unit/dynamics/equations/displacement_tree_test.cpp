@@ -18,6 +18,12 @@ double find_largest_of_all(const MatrixX& Phi, const VectorX& eta) {
   return largest;
 }
 
+double find_anew(const DisplacementTree& tree, const VectorX& eta,
+                 double least) {
+  int leaf = -1;
+  return tree.find_largest(eta, least, leaf);
+}
+
 class DisplacementTreeOf : public ::testing::TestWithParam<int> {
  protected:
   DisplacementTreeOf() {
@@ -48,10 +54,10 @@ TEST_P(DisplacementTreeOf, FindsWhatAllNodesGive) {
   for (int i = 0; i < 200; ++i) {
     const VectorX eta = draw();
     const double expected = find_largest_of_all(Phi_, eta);
-    EXPECT_NEAR(tree.find_largest(eta, 0.0), expected, 1e-14 * expected);
-    EXPECT_NEAR(tree.find_largest(eta, 0.9 * expected), expected,
+    EXPECT_NEAR(find_anew(tree, eta, 0.0), expected, 1e-14 * expected);
+    EXPECT_NEAR(find_anew(tree, eta, 0.9 * expected), expected,
                 1e-14 * expected);
-    EXPECT_EQ(tree.find_largest(eta, 1.1 * expected), 1.1 * expected);
+    EXPECT_EQ(find_anew(tree, eta, 1.1 * expected), 1.1 * expected);
   }
 }
 
@@ -60,16 +66,31 @@ TEST_P(DisplacementTreeOf, FindsItOfNodesThatMoveAlike) {
   const DisplacementTree tree(x_, Phi_);
   const VectorX eta = draw();
   const double expected = find_largest_of_all(Phi_, eta);
-  EXPECT_NEAR(tree.find_largest(eta, 0.0), expected, 1e-14 * expected);
+  EXPECT_NEAR(find_anew(tree, eta, 0.0), expected, 1e-14 * expected);
+}
+
+TEST_P(DisplacementTreeOf, FindsTheSameWhereverItSearchesFirst) {
+  const DisplacementTree tree(x_, Phi_);
+  int leaf = -1;
+  for (int i = 0; i < 200; ++i) {
+    const VectorX eta = draw();
+    const double expected = find_anew(tree, eta, 0.0);
+    EXPECT_EQ(tree.find_largest(eta, 0.0, leaf), expected);
+    const int found = leaf;
+    EXPECT_EQ(tree.find_largest(eta, 0.0, leaf), expected);
+    EXPECT_EQ(leaf, found);
+    EXPECT_EQ(tree.find_largest(eta, 1.1 * expected, leaf), 1.1 * expected);
+    EXPECT_EQ(leaf, found);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, DisplacementTreeOf,
                          ::testing::Values(1, 8, 9, 100, 3001));
 
 TEST(DisplacementTree, OfNoNodesFindsNothing) {
-  EXPECT_EQ(DisplacementTree().find_largest(VectorX::Ones(3), 0.5), 0.5);
-  EXPECT_EQ(DisplacementTree(Matrix3X(3, 0), MatrixX(0, 3))
-                .find_largest(VectorX::Ones(3), 0.5),
+  EXPECT_EQ(find_anew(DisplacementTree(), VectorX::Ones(3), 0.5), 0.5);
+  EXPECT_EQ(find_anew(DisplacementTree(Matrix3X(3, 0), MatrixX(0, 3)),
+                      VectorX::Ones(3), 0.5),
             0.5);
 }
 

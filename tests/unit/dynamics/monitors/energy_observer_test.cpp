@@ -207,21 +207,20 @@ TEST_F(CloudLedger, ExplainsEnergyByWorkAndLosses) {
   EXPECT_NEAR(record.rows[0].in - record.rows[0].out, rise + 4.0, 1e-12);
 }
 
-// Approximate terms may not tell an extreme.
-TEST_F(CloudLedger, AsksForExactTermsWhereAnExtremeGrows) {
+// Approximate terms may not tell an extreme of a drift.
+TEST_F(CloudLedger, AsksForExactTermsWhereADriftGrows) {
   const SystemState first = make_moving(0.0, 1.0, 0.0);
-  EnergyObserver energy_observer(model_, IntegratorKind::generalized_alpha);
-  energy_observer.start(first, find_terms(first));
-  const EnergyFlows none = make_flows(model_);
-  const SystemState more = make_moving(0.1, 1.1, 0.0);
-  EXPECT_FALSE(energy_observer.try_add(more, find_terms(more), none));
-  EXPECT_EQ(find_record(model_, energy_observer).drift.value, 0.0);
-  const SystemState less = make_moving(0.1, 0.9, 0.0);
-  const double fall = sum_kinetic(first) - sum_kinetic(less);
-  EXPECT_FALSE(
-      energy_observer.try_add(less, find_terms(less), none));  // a new drift
-  EXPECT_TRUE(energy_observer.try_add(less, find_terms(less),
-                                      make_totals(model_, 0.0, fall)));
+  for (const double scale : {1.1, 0.9}) {
+    EnergyObserver energy_observer(model_, IntegratorKind::generalized_alpha);
+    energy_observer.start(first, find_terms(first));
+    const SystemState last = make_moving(0.1, scale, 0.0);
+    const double rise = sum_kinetic(last) - sum_kinetic(first);
+    EXPECT_FALSE(
+        energy_observer.try_add(last, find_terms(last), make_flows(model_)));
+    EXPECT_EQ(find_record(model_, energy_observer).drift.value, 0.0);
+    EXPECT_TRUE(energy_observer.try_add(last, find_terms(last),
+                                        make_totals(model_, rise, 0.0)));
+  }
 }
 
 /// Two masses on a spring and a second one by a path between them.
@@ -304,6 +303,43 @@ TEST(EnergyObserver, GivesACouplerThePowerOfItsSpring) {
   EXPECT_NEAR(spring.in, given + 0.1 * 4.0, 1e-12);
   EXPECT_NEAR(spring.dissipated, 0.1 * 4.0, 1e-12);
   EXPECT_NEAR(spring.stored, 0.5 * 100.0 * 0.25, 1e-12);
+}
+
+// By terms that give the spring a tenth too much.
+TEST(EnergyObserver, KeepsTheMostStretchedStateUntilExactTermsTellItsEnergy) {
+  SprungMasses masses;
+  const SystemModel model = masses.builder.build();
+  EnergyObserver energy_observer(model, IntegratorKind::generalized_alpha);
+  SystemTerms terms = make_terms(model);
+  const auto evaluate = [&](const SystemState& state) {
+    calc_terms(model, state, Side::right, terms);
+  };
+  EnergyFlows flows = make_flows(model);
+  const auto try_add = [&](const SystemState& state) {
+    evaluate(state);
+    terms.couplers[0].response.energy *= 1.1;
+    flows.supplied[2] = terms.couplers[0].response.energy;
+    return energy_observer.try_add(state, terms, flows);
+  };
+  evaluate(stretch(model, 0.0, 0.0, 0.0));
+  energy_observer.start(stretch(model, 0.0, 0.0, 0.0), terms);
+  EXPECT_EQ(energy_observer.peak(), nullptr);
+  for (const double by : {0.1, 0.2, 0.3}) {
+    ASSERT_TRUE(try_add(stretch(model, by, by, 0.0)));
+    EXPECT_FALSE(energy_observer.has_passed_peak(terms));
+    EXPECT_EQ(find_record(model, energy_observer).coupler.value, 0.0);
+  }
+  ASSERT_TRUE(try_add(stretch(model, 0.4, 0.25, 0.0)));
+  EXPECT_TRUE(energy_observer.has_passed_peak(terms));
+  const SystemState* peak = energy_observer.peak();
+  ASSERT_NE(peak, nullptr);
+  EXPECT_EQ(peak->t, 0.3);
+  evaluate(*peak);
+  energy_observer.include_peak(terms);
+  EXPECT_EQ(energy_observer.peak(), nullptr);
+  const Extreme most = find_record(model, energy_observer).coupler;
+  EXPECT_NEAR(most.value, 0.5 * 100.0 * 0.09, kRoundoff);
+  EXPECT_EQ(most.time, 0.3);
 }
 
 // What rows exchange cancels: drift = change of all stored energy + losses.
