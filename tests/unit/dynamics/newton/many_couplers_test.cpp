@@ -303,7 +303,9 @@ LinkGraph make_graph(const std::vector<std::vector<int>>& links_of_body,
                   .blocks = blocks,
                   .sizes = {},
                   .moves = std::vector<bool>(blocks.size(), true),
-                  .grounded = {}};
+                  .grounded = {},
+                  .ideal = {},
+                  .anchored = {}};
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     graph.sizes.push_back(6 * blocks[b]);
     for (const int link : links_of_body[b]) {
@@ -311,6 +313,7 @@ LinkGraph make_graph(const std::vector<std::vector<int>>& links_of_body,
     }
   }
   graph.grounded.resize(index(graph.links), false);
+  graph.ideal = graph.anchored = graph.grounded;
   return graph;
 }
 
@@ -373,6 +376,14 @@ TEST(RetainedBodies, HaveNoParentInABodyThatIsClamped) {
   graph.moves[1] = false;
   EXPECT_THAT(find_retained(graph),
               ElementsAre(Pair(1, -1), Pair(0, -1), Pair(2, -1)));
+}
+
+TEST(RetainedBodies, LeaveIdealJointsABodyThatMovesAndIsEliminated) {
+  LinkGraph graph = make_row({20});
+  graph.ideal[3] = true;
+  EXPECT_THAT(find_retained(graph), ElementsAre(Pair(0, -1)));
+  graph.anchored[3] = true;
+  EXPECT_THAT(find_retained(graph), IsEmpty());
 }
 
 // Twice n b^2 + b^3 / 3 against n^3 / 3: 362 and 333 products of blocks for ten
