@@ -163,7 +163,9 @@ TEST(CoupledModes, OfABodyWithManyCouplersMoveAsThoseThatElasticityLeaves) {
                               .blocks = {3},
                               .sizes = {14},
                               .moves = {true},
-                              .grounded = std::vector<bool>(kCouplers, true)})
+                              .grounded = std::vector<bool>(kCouplers, true),
+                              .ideal = std::vector<bool>(kCouplers, false),
+                              .anchored = std::vector<bool>(kCouplers, true)})
           .size(),
       1U);
   for (const IntegratorKind kind :
