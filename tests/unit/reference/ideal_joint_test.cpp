@@ -75,8 +75,8 @@ TEST_P(IdealTree, MovesAsSimbodysDoesToSecondOrderInTheStep) {
 INSTANTIATE_TEST_SUITE_P(Implicit, IdealTree,
                          ::testing::Values("generalized-alpha",
                                            "energy-conserving"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& tree) {
+                           std::string name = tree.param;
                            std::erase(name, '-');
                            return name;
                          });

@@ -149,7 +149,6 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec,
   const std::string who = fmt::format("[[robot]] '{}':", spec.name);
   if (spec.joint == JointModel::ideal) {
     named.robot = make_ideal(who, std::move(named.robot), warnings);
-    named.has_ideal_base = true;
   }
   named.is_fixed = needs_fixed_base(who, named.robot, spec.base, warnings);
   if ((is_held(named.robot) || named.is_fixed) && is_moving(spec.start)) {

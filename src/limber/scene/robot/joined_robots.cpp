@@ -97,7 +97,6 @@ void add_robot(const NamedRobot& source, Robot& joined) {
                   : joints::JointKind::floating;
   base.child = first;
   base.X_PJ = source.X_WR;
-  base.coupler.is_ideal = source.has_ideal_base;
   joined.joints.push_back(base);
   for (Joint& joint : robot.joints) {
     joint.parent += first;

@@ -13,9 +13,8 @@ namespace limber::scene {
 struct NamedRobot {
   std::string name;  ///< unique, without a dot
   Robot robot;
-  Pose X_WR;                    ///< of its root link at the start
-  bool is_fixed = false;        ///< to the world, there
-  bool has_ideal_base = false;  ///< whether its joint to the world is ideal
+  Pose X_WR;              ///< of its root link at the start
+  bool is_fixed = false;  ///< to the world, there
 };
 
 /// Whether a robot is fixed to the world: its root link represents the world,

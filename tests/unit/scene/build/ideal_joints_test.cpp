@@ -4,7 +4,7 @@
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-/// Which joints of a scene are ideal, and that a run takes them.
+/// Which joints of a scene are ideal.
 namespace limber::scene::ideal_joints_test {
 namespace {
 
@@ -12,7 +12,6 @@ using test::input_error;
 using test::kWorld;
 using test::rigid_link;
 using test::SceneFolder;
-using test::simulate_probes;
 using test::time_table;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -86,28 +85,12 @@ TEST_F(IdealJoints, LeaveElasticOnesThatTheRobotsFileDescribes) {
   EXPECT_THAT(load(make_arm(), kIdeal).scenario.warnings, IsEmpty());
 }
 
-TEST_F(IdealJoints, AreThoseOfOneRobotOfSeveralWithItsBase) {
+TEST_F(IdealJoints, AreThoseOfOneRobotOfSeveral) {
   const std::string two =
       "[[robot]]\nname = 'A'\nfile = 'r.urdf'\njoint = 'ideal'\n"
       "[[robot]]\nname = 'B'\nfile = 'r.urdf'\nposition = [0, 3, 0]\n";
   EXPECT_THAT(find_ideal(load(make_arm(), two)),
               ElementsAre("A.shoulder", "A.elbow"));
-}
-
-TEST_F(IdealJoints, OfAFixedBaseCarryTheWeightOfTheArm) {
-  const std::string arm =
-      rigid_link("foot", 3.0, 1.0) + rigid_link("upper", 1.0, 0.5, "0.5 0 0") +
-      "<joint name='j' type='fixed'><parent link='foot'/><child "
-      "link='upper'/><origin xyz='0.2 0 0'/></joint>\n"
-      "<coupler joint='j' ideal='true'/>";
-  const Scene scene =
-      load(arm, kIdeal + "base = 'fixed'\n",
-           time_table(0.01, 1e-3) +
-               "[gravity]\nacceleration = [0, 0, -9.81]\n[[probe]]\nname = "
-               "'f'\ncoupler = 'base'\nquantity = 'force'\nframe = 'world'\n");
-  const std::vector<double> force = simulate_probes(folder_.build(scene));
-  ASSERT_EQ(force.size() % 3, 0U);
-  EXPECT_NEAR(force.back(), 4.0 * 9.81, 1e-9);
 }
 
 TEST_F(IdealJoints, AreRefusedByNameWithWhatContradictsThem) {
