@@ -177,7 +177,8 @@ TEST(AxialLoad, TurnOfInterfacesIsThatOfTheirTables) {
   const VectorX eta = VectorX::LinSpaced(model.bodies[0].modes, -0.02, 0.03);
   const Vector3 root = beam.reduced->interfaces[0].Psi_B * eta;
   const Vector3 tip = beam.reduced->interfaces[1].Psi_B * eta;
-  const InterfaceRotation rotation = find_rotation(model, beam.body, eta);
+  const InterfaceRotation rotation =
+      find_rotation(find_interfaces(model, beam.body), eta);
   EXPECT_NEAR(rotation.own, std::max(root.norm(), tip.norm()), 1e-12);
   EXPECT_NEAR(rotation.relative, (tip - root).norm(), 1e-12);
 }
