@@ -10,6 +10,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/reference/scene_mechanism.hpp"
 #include "limber/reference/stiffening.hpp"
@@ -164,11 +165,9 @@ double find_fraction(double part, double whole) {
 
 void refuse_ideal_joints(const dynamics::SystemModel& model,
                          const char* remedy) {
-  for (const dynamics::Coupler& coupler : model.couplers) {
-    if (!joints::is_ideal(coupler.law)) continue;
-    throw InputError(
-        fmt::format("joint '{}' is ideal: {}", coupler.name, remedy));
-  }
+  const dynamics::Coupler* joint = dynamics::find_ideal_joint(model);
+  if (joint == nullptr) return;
+  throw InputError(fmt::format("joint '{}' is ideal: {}", joint->name, remedy));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -50,16 +51,12 @@ scene::BuiltScene build(const scene::Scene& scene,
   return built;
 }
 
-reference::JointModel find_joint_model(const VerifyOptions& options,
-                                       const dynamics::SystemModel& model) {
+reference::JointModel find_joint_model(const VerifyOptions& options) {
   if (!options.joints.empty()) {
     return reference::parse_joint_model(options.joints);
   }
-  const bool is_ideal =
-      std::any_of(model.couplers.begin(), model.couplers.end(),
-                  [](const auto& c) { return joints::is_ideal(c.law); });
-  return options.stiffen.empty() && !is_ideal ? reference::JointModel::bushings
-                                              : reference::JointModel::ideal;
+  return options.stiffen.empty() ? reference::JointModel::bushings
+                                 : reference::JointModel::ideal;
 }
 
 /// Where a report goes, if anywhere.
@@ -103,6 +100,7 @@ void verify(const VerifyOptions& options) {
   if (!options.out.empty()) folder.emplace(options.out);
   VerificationReport report;
   report.scenario = options.scenario;
+  report.options.simbody.joints = find_joint_model(options);
   report.options.simbody.accuracy = options.accuracy;
   report.options.refinements = options.refine;
   scene::Overrides overrides;
@@ -122,7 +120,9 @@ void verify(const VerifyOptions& options) {
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
   report.tolerance = built.settings.tolerance;
-  report.options.simbody.joints = find_joint_model(options, built.model);
+  if (options.joints.empty() && dynamics::find_ideal_joint(built.model)) {
+    report.options.simbody.joints = reference::JointModel::ideal;
+  }
   if (!options.stiffen.empty()) {
     stiffen(options, folder, scene, built, report);
     return;

@@ -5,11 +5,15 @@
 
 namespace limber::dynamics {
 
+const Coupler* find_ideal_joint(const SystemModel& model) {
+  const auto found =
+      std::find_if(model.couplers.begin(), model.couplers.end(),
+                   [](const Coupler& c) { return joints::is_ideal(c.law); });
+  return found == model.couplers.end() ? nullptr : &*found;
+}
+
 std::optional<SystemModel> replace_ideal_joints(const SystemModel& model) {
-  const bool has_any =
-      std::any_of(model.couplers.begin(), model.couplers.end(),
-                  [](const Coupler& c) { return joints::is_ideal(c.law); });
-  if (!has_any) return std::nullopt;
+  if (find_ideal_joint(model) == nullptr) return std::nullopt;
   SystemModel stiff = model;
   for (Coupler& coupler : stiff.couplers) {
     if (!joints::is_ideal(coupler.law)) continue;

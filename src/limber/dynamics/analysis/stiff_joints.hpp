@@ -7,6 +7,9 @@
 
 namespace limber::dynamics {
 
+/// The first ideal joint; null if there is none.
+[[nodiscard]] const Coupler* find_ideal_joint(const SystemModel& model);
+
 /// The model with stiff joints in place of ideal ones, for analyses whose
 /// unknowns are positions alone; none if it has no ideal joint. Where their
 /// stiffness is a default, they add 1 / kIdealStiffnessRatio to the flexibility

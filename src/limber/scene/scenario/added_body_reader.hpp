@@ -15,6 +15,7 @@ namespace limber::scene {
 
 /// The key `base` of a robot: "free" or "fixed".
 [[nodiscard]] std::optional<RobotBase> read_base(TomlTable& table);
+/// The key `joint` of a robot: "stiff" or "ideal".
 [[nodiscard]] JointModel read_joint_model(TomlTable& table);
 
 /// A [[robot]]. @param folder to which its file name is relative
