@@ -133,9 +133,10 @@ ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
 
 ModeStudy study_basis(const Recipe& recipe, const Progress& progress) {
   return study_source(recipe, progress, [&](const auto& body) {
-    const ReducedBasis basis = join_basis(
-        body, find_eigenmodes(body, recipe, progress),
-        find_static_modes(body, recipe), recipe.basis.drop_tolerance);
+    const fem::Eigenmodes modes = find_eigenmodes(body, recipe, progress);
+    const ReducedBasis basis =
+        join_basis(body, modes, find_static_modes(body, recipe, modes),
+                   recipe.basis.drop_tolerance);
     return study(body, recipe, {basis.lambda, basis.Phi}, progress);
   });
 }

@@ -72,9 +72,9 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   check_initial_fields(meshed, recipe);
   const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
   report(progress, "static-deformation modes", 0.0);
-  const StaticModes modes = recipe.is_estimate
-                                ? estimate_static_modes(meshed)
-                                : find_static_modes(meshed, recipe);
+  const StaticModes modes =
+      recipe.is_estimate ? estimate_static_modes(meshed)
+                         : find_static_modes(meshed, recipe, chosen.eigenmodes);
   const ReducedBasis basis =
       join_basis(meshed, chosen.eigenmodes, modes, recipe.basis.drop_tolerance);
   const MatrixX Phi =

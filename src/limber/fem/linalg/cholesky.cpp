@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "limber/common/errors.hpp"
 #include "limber/fem/linalg/cholmod_view.hpp"
+#include "limber/fem/linalg/parallel.hpp"
 #include "limber/fem/linalg/serial_blas.hpp"
 
 namespace limber::fem {
@@ -43,15 +46,51 @@ void check_memory(double bytes, const std::string& what) {
                   what, bytes / kGigabyte, memory / kGigabyte));
 }
 
+/// Columns that are solved for together. Fixed, so that solutions do not depend
+/// on the number of threads.
+constexpr Eigen::Index kColumns = 16;
+
 }  // namespace
 
+/// What one thread needs to solve, reused from one solution to the next.
+class CholmodSolver {
+ public:
+  CholmodSolver() = default;
+  CholmodSolver(const CholmodSolver&) = delete;
+  CholmodSolver& operator=(const CholmodSolver&) = delete;
+  ~CholmodSolver() {
+    for (cholmod_dense** room : {&answer_, &room_Y_, &room_E_}) {
+      cholmod().free_dense(room, common_.get());
+    }
+  }
+
+  void solve(cholmod_factor* factor, Eigen::Ref<MatrixX> x) {
+    cholmod_dense b{};
+    b.nrow = static_cast<std::size_t>(x.rows());
+    b.ncol = static_cast<std::size_t>(x.cols());
+    b.d = static_cast<std::size_t>(x.outerStride());
+    b.nzmax = b.d * b.ncol;
+    b.x = x.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    cholmod().solve2(CHOLMOD_A, factor, &b, nullptr, &answer_, nullptr,
+                     &room_Y_, &room_E_, common_.get());
+    common_.check("solution");
+    x = Eigen::Map<const MatrixX>(static_cast<const double*>(answer_->x),
+                                  x.rows(), x.cols());
+  }
+
+ private:
+  CholmodCommon common_;
+  cholmod_dense* answer_ = nullptr;
+  cholmod_dense* room_Y_ = nullptr;
+  cholmod_dense* room_E_ = nullptr;
+};
+
 struct SparseCholesky::Impl {
-  mutable CholmodCommon common;
+  CholmodCommon common;
   cholmod_factor* factor = nullptr;
-  // Reused from one solution to the next.
-  cholmod_dense* answer = nullptr;
-  cholmod_dense* room_Y = nullptr;
-  cholmod_dense* room_E = nullptr;
+  std::vector<std::unique_ptr<CholmodSolver>> solvers;  // one a thread
   double flops = 0.0;
   std::string what;
   std::string causes;
@@ -59,12 +98,7 @@ struct SparseCholesky::Impl {
   Impl() = default;
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    for (cholmod_dense** room : {&answer, &room_Y, &room_E}) {
-      cholmod().free_dense(room, common.get());
-    }
-    cholmod().free_factor(&factor, common.get());
-  }
+  ~Impl() { cholmod().free_factor(&factor, common.get()); }
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& lower,
@@ -107,20 +141,27 @@ MatrixX SparseCholesky::solve(const MatrixX& right_hand_side) const {
 
 void SparseCholesky::solve_in_place(Eigen::Ref<MatrixX> x) const {
   const SerialBlas serial;
-  cholmod_dense b{};
-  b.nrow = static_cast<std::size_t>(x.rows());
-  b.ncol = static_cast<std::size_t>(x.cols());
-  b.d = static_cast<std::size_t>(x.outerStride());
-  b.nzmax = b.d * b.ncol;
-  b.x = x.data();
-  b.xtype = CHOLMOD_REAL;
-  b.dtype = CHOLMOD_DOUBLE;
-  Impl& impl = *impl_;
-  cholmod().solve2(CHOLMOD_A, impl.factor, &b, nullptr, &impl.answer, nullptr,
-                   &impl.room_Y, &impl.room_E, impl.common.get());
-  impl.common.check("solution");
-  x = Eigen::Map<const MatrixX>(static_cast<const double*>(impl.answer->x),
-                                x.rows(), x.cols());
+  const Eigen::Index blocks = (x.cols() + kColumns - 1) / kColumns;
+  const Eigen::Index parts = std::min<Eigen::Index>(thread_count(), blocks);
+  std::vector<std::unique_ptr<CholmodSolver>>& solvers = impl_->solvers;
+  while (std::ssize(solvers) < parts) {
+    solvers.push_back(std::make_unique<CholmodSolver>());
+  }
+  const auto solve_part = [&](Eigen::Index part) {
+    for (Eigen::Index block = part; block < blocks; block += parts) {
+      const Eigen::Index first = kColumns * block;
+      solvers[static_cast<std::size_t>(part)]->solve(
+          impl_->factor,
+          x.middleCols(first, std::min(kColumns, x.cols() - first)));
+    }
+  };
+  if (parts == 1) return solve_part(0);  // without allocation
+  parallel_ranges(static_cast<std::size_t>(parts),
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t part = begin; part < end; ++part) {
+                      solve_part(static_cast<Eigen::Index>(part));
+                    }
+                  });
 }
 
 double SparseCholesky::flops() const { return impl_->flops; }

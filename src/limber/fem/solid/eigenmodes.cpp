@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/solid/eigenmodes.hpp"
 
-#include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -108,129 +108,188 @@ void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
   }
 }
 
-/// (K - s M)^-1 restricted to motions M-orthogonal to the known modes, with
-/// Spectra's interface.
+/// A = (K - s M)^-1 M restricted to motions that are M-orthogonal to the known
+/// modes. M-symmetric, with eigenvalues theta = 1 / (lambda - s).
 class ShiftedInverse {
  public:
-  using Scalar = double;
+  ShiftedInverse(const ElasticInverse& inverse, const MatrixX& known)
+      : inverse_(inverse), known_(known), M_known_(multiply_mass(known)) {}
 
-  ShiftedInverse(const ElasticInverse& inverse, const MatrixX& known,
-                 std::function<void(int)> count_call)
-      : inverse_(inverse),
-        known_(known),
-        M_known_(multiply_mass(inverse.matrices().M_s, known)),
-        count_call_(std::move(count_call)) {}
-
-  [[nodiscard]] Eigen::Index rows() const { return known_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return known_.rows(); }
-  void set_shift(double) const {}  // that of the factor
-
-  void perform_op(const double* in, double* out) const {
-    count_call_(++calls_);
-    const MatrixX load = Eigen::Map<const VectorX>(in, rows());
-    Eigen::Map<VectorX>(out, rows()) =
-        scale_ * deflate(inverse_.solve_shifted(load));
+  [[nodiscard]] MatrixX multiply_mass(const MatrixX& X) const {
+    return fem::multiply_mass(inverse_.matrices().M_s, X);
   }
-
-  /// Scales the operator to order 1 on `x`: Spectra's tolerance has an absolute
-  /// part, and eigenvalues depend on the unit of length.
-  void scale_by(const MatrixX& x) {
-    const MatrixX M_x = multiply_mass(inverse_.matrices().M_s, x);
-    const MatrixX y = deflate(inverse_.solve_shifted(M_x));
-    scale_ = x.col(0).dot(M_x.col(0)) / y.col(0).dot(M_x.col(0));
+  /// A V of M V.
+  [[nodiscard]] MatrixX apply(const MatrixX& MV) const {
+    return deflate(inverse_.solve_shifted(MV));
   }
-
-  [[nodiscard]] VectorX deflate(const MatrixX& x) const {
-    return x - known_ * (M_known_.transpose() * x);
+  [[nodiscard]] MatrixX make_random(Eigen::Index count) const {
+    // Others than those with which the known modes were found: of a repeated
+    // eigenvalue these modes are all that the same vectors hold.
+    std::mt19937_64 random(static_cast<std::uint64_t>(1 + known_.cols()));
+    std::normal_distribution<double> normal;
+    MatrixX X(known_.rows(), count);
+    for (double& value : X.reshaped()) value = normal(random);
+    X = deflate(inverse_.project_motion(X));
+    if (inverse_.matrices().is_scalar_mass()) return X;
+    // Into the space without motions that have no mass.
+    return apply(multiply_mass(X));
   }
 
  private:
+  [[nodiscard]] MatrixX deflate(const MatrixX& X) const {
+    return X - known_ * (M_known_.transpose() * X);
+  }
+
   const ElasticInverse& inverse_;
   const MatrixX& known_;
   MatrixX M_known_;
-  std::function<void(int)> count_call_;
-  double scale_ = 1.0;
-  mutable int calls_ = 0;
 };
 
-/// The inner product of M, with Spectra's interface.
-class MassProduct {
- public:
-  using Scalar = double;
+/// Columns that a Krylov space grows by: the factor is read once for all of
+/// them, but more columns take more vectors to converge. They find as many
+/// modes of one eigenvalue.
+constexpr Eigen::Index kBlock = 8;
 
-  explicit MassProduct(const StructuralMatrices& matrices)
-      : matrices_(matrices) {}
-  [[nodiscard]] Eigen::Index rows() const { return matrices_.dof_count(); }
-  [[nodiscard]] Eigen::Index cols() const { return matrices_.dof_count(); }
-  void perform_op(const double* in, double* out) const {
-    const MatrixX x = Eigen::Map<const VectorX>(in, rows());
-    Eigen::Map<VectorX>(out, rows()) = multiply_mass(matrices_.M_s, x);
+/// A growing M-orthonormal basis V and its T = V' M A V.
+struct KrylovSpace {
+  MatrixX V;  ///< as many columns as may be needed, `size` of them set
+  Eigen::Index size = 0;
+  MatrixX T;       ///< size x size
+  MatrixX G;       ///< R' M R, R the columns of A V - V T that are not zero
+  MatrixX next;    ///< M-orthonormal basis of R
+  MatrixX M_next;  ///< M times it
+
+  [[nodiscard]] auto basis() const { return V.leftCols(size); }
+};
+
+/// Sets `next` to a basis of R without directions of round-off.
+/// @param largest M-norm of which round-off is a part
+void set_next(const ShiftedInverse& op, const MatrixX& R, const MatrixX& MR,
+              double largest, KrylovSpace& space) {
+  constexpr double kRoundoff = 1e-13;    // of `largest`
+  constexpr double kIndependent = 1e-7;  // of a column
+  space.G = R.transpose() * MR;
+  VectorX scale = space.G.diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (double& norm : scale) {
+    norm = norm > kRoundoff * largest ? 1.0 / norm : 0.0;
   }
-
- private:
-  const StructuralMatrices& matrices_;
-};
-
-VectorX random_motion(const ShiftedInverse& op, const ElasticInverse& inverse) {
-  std::mt19937_64 random{1};
-  std::normal_distribution<double> normal;
-  MatrixX x(op.rows(), 1);
-  for (double& value : x.reshaped()) value = normal(random);
-  x = op.deflate(inverse.project_motion(x));
-  if (inverse.matrices().is_scalar_mass()) return x;
-  // Into the space without motions that have no mass.
-  return op.deflate(
-      inverse.solve_shifted(multiply_mass(inverse.matrices().M_s, x)));
+  space.next = R * scale.asDiagonal();
+  space.M_next = MR * scale.asDiagonal();
+  for (int pass = 0; pass < 2; ++pass) {
+    const MatrixX gram = space.next.transpose() * space.M_next;
+    const auto pairs =
+        dense::find_eigenpairs(MatrixX(0.5 * (gram + gram.transpose())));
+    const Eigen::Index kept =
+        (pairs.values.array() > kIndependent * kIndependent).count();
+    const MatrixX axes =
+        pairs.vectors.rightCols(kept) *
+        pairs.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+    space.next = space.next * axes;
+    space.M_next = space.M_next * axes;
+  }
+  space.M_next = op.multiply_mass(space.next);
 }
 
-/// The `count` lowest modes that are M-orthogonal to the known ones.
+/// Moves `next` into V and finds the one after.
+void extend(const ShiftedInverse& op, KrylovSpace& space) {
+  const Eigen::Index old = space.size;
+  const Eigen::Index block = space.next.cols();
+  space.V.middleCols(old, block) = space.next;
+  space.size += block;
+  MatrixX R = op.apply(space.M_next);
+  MatrixX T = MatrixX::Zero(space.size, space.size);
+  T.topLeftCorner(old, old) = space.T;
+  MatrixX MR;
+  for (int pass = 0; pass < 2; ++pass) {  // the second removes round-off
+    MR = op.multiply_mass(R);
+    const MatrixX C = space.basis().transpose() * MR;
+    R -= space.basis() * C;
+    T.rightCols(block) += C;
+  }
+  T.bottomLeftCorner(block, old) = T.topRightCorner(old, block).transpose();
+  space.T = std::move(T);
+  set_next(op, R, MR, space.T.diagonal().maxCoeff(), space);
+}
+
+/// Replaces V by its `kept` vectors of largest theta.
+void restart(const dense::Eigenpairs& ritz, Eigen::Index kept,
+             KrylovSpace& space) {
+  const MatrixX V = space.basis() * ritz.vectors.rightCols(kept);
+  space.V.leftCols(kept) = V;
+  space.size = kept;
+  space.T = ritz.values.tail(kept).asDiagonal();
+}
+
+/// The `count` lowest modes that are M-orthogonal to the known ones, or fewer
+/// if one Krylov space holds no more.
 MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
                Eigen::Index count, const Progress& progress) {
-  constexpr double kTolerance = 1e-11;
-  constexpr Eigen::Index kRestarts = 1000;
+  constexpr double kTolerance = 1e-10;  // of theta
+  constexpr int kMostBlocks = 10000;
   const Eigen::Index room = count_elastic(inverse) - known.cols();
-  const Eigen::Index width = std::min(2 * count + 20, room);
-  ShiftedInverse op(inverse, known, [&](int calls) {
-    // About two solves a column of the width, empirically.
+  const Eigen::Index block = std::min(kBlock, room);
+  const Eigen::Index most = std::min(2 * count + 8 * block, room);
+  const ShiftedInverse op(inverse, known);
+  KrylovSpace space;
+  space.V.resize(known.rows(), most + block);
+  const MatrixX start = op.make_random(block);
+  set_next(op, start, op.multiply_mass(start), 0.0, space);
+  double residual = 1.0;
+  for (int i = 0; i < kMostBlocks; ++i) {
+    extend(op, space);
+    const dense::Eigenpairs ritz =
+        dense::find_eigenpairs(MatrixX(0.5 * (space.T + space.T.transpose())));
+    const Eigen::Index found = std::min(count, space.size);
+    const MatrixX Y = ritz.vectors.rightCols(found);
+    const MatrixX last = Y.bottomRows(space.G.cols());
+    const VectorX squares = (last.transpose() * space.G * last).diagonal();
+    residual =
+        (squares.array().max(0.0).sqrt() / ritz.values.tail(found).array())
+            .maxCoeff();
+    const bool is_whole = space.next.cols() == 0 || space.size >= room;
+    if (is_whole || (found == count && residual <= kTolerance)) {
+      // Once more, which removes stiff motion, and round-off of motion without
+      // mass, which grows in the space (Nour-Omid, Parlett, Ericsson and
+      // Jensen, Math. Comp. 48, 1987).
+      return op.apply(op.multiply_mass(space.basis() * Y));
+    }
     report(progress, "finding eigenmodes",
-           std::min(0.99, 0.5 * calls / static_cast<double>(width)));
-  });
-  MassProduct mass(inverse.matrices());
-  Spectra::SymGEigsShiftSolver<ShiftedInverse, MassProduct,
-                               Spectra::GEigsMode::ShiftInvert>
-      solver(op, mass, count, width, inverse.shift());
-  const VectorX start = random_motion(op, inverse);
-  op.scale_by(start);
-  solver.init(start.data());
-  const Eigen::Index converged =
-      solver.compute(Spectra::SortRule::LargestMagn, kRestarts, kTolerance,
-                     Spectra::SortRule::SmallestAlge);
-  if (converged < count)
-    throw NumericalError(fmt::format(
-        "eigenmodes: {} of {} converged in {} restarts; request fewer.{}",
-        converged, count, kRestarts, inverse.conditioning()));
-  if (inverse.matrices().is_scalar_mass()) return solver.eigenvectors();
-  // The recursion does not see massless motion and its round-off grows
-  // (Nour-Omid, Parlett, Ericsson and Jensen, Math. Comp. 48, 1987).
-  return inverse.solve_shifted(
-      multiply_mass(inverse.matrices().M_s, solver.eigenvectors()));
+           std::clamp(std::log(residual) / std::log(kTolerance), 0.0, 0.99));
+    if (space.size > most) {
+      restart(ritz, std::min(count + block, space.size), space);
+    }
+  }
+  throw NumericalError(fmt::format(
+      "eigenmodes: {} did not converge in {} blocks: their residual is {:.3g}, "
+      "{:.0g} is required. Request fewer.{}",
+      count, kMostBlocks, residual, kTolerance, inverse.conditioning()));
 }
 
-/// One Krylov space finds repeated eigenvalues only through roundoff. So modes
-/// found are deflated and the complement is searched, until it has no
-/// eigenvalue below the last requested mode.
+/// Whether more modes may share an eigenvalue than a block finds.
+bool may_lack_modes(const VectorX& lambda) {
+  constexpr double kCluster = 0.05;
+  for (Eigen::Index i = 0; i + kBlock <= lambda.size(); ++i) {
+    if (lambda[i + kBlock - 1] <= (1.0 + kCluster) * lambda[i]) return true;
+  }
+  return false;
+}
+
+/// A Krylov space holds no more modes of one eigenvalue than its blocks have
+/// columns. Then modes found are deflated and the complement is searched, until
+/// it has no eigenvalue below the last requested mode.
 Eigenmodes solve_lanczos(const ElasticInverse& inverse, Eigen::Index count,
                          const Progress& progress) {
   const Eigen::Index dofs = inverse.matrices().dof_count();
   Eigenmodes found =
       polish(inverse, search(inverse, MatrixX(dofs, 0), count, progress));
   for (Eigen::Index more = 1;; more *= 2) {
-    const Eigen::Index left = count_elastic(inverse) - found.Phi.cols();
-    more = std::min(more, left - 1);
-    const MatrixX rest = search(inverse, found.Phi, more, progress);
+    const Eigen::Index lacking = count - found.Phi.cols();
+    if (lacking <= 0 && !may_lack_modes(found.lambda.head(count))) break;
+    const MatrixX rest =
+        search(inverse, found.Phi, std::max(more, lacking), progress);
     const double lowest = polish(inverse, rest).lambda[0];
-    if (lowest >= found.lambda[count - 1]) break;
-    MatrixX both(dofs, found.Phi.cols() + more);
+    if (lacking <= 0 && lowest >= found.lambda[count - 1]) break;
+    MatrixX both(dofs, found.Phi.cols() + rest.cols());
     both << found.Phi, rest;
     found = polish(inverse, both);
   }

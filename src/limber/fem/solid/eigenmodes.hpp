@@ -14,10 +14,11 @@ struct Eigenmodes {
 /// The `count` lowest elastic eigenmodes.
 ///
 /// Equation   K phi = lambda M phi
-/// Source     Implicitly restarted Lanczos on (K - s M)^-1 M (Ericsson and
-///            Ruhe, Math. Comp. 35, 1980), by Spectra, repeated in the
-///            complement of what was found until that holds no lower mode:
-///            so that repeated eigenvalues come with all their modes.
+/// Source     Block Lanczos on (K - s M)^-1 M with full orthogonalisation
+///            (Grimes, Lewis and Simon, SIAM J. Matrix Anal. Appl. 15, 1994)
+///            and thick restart. Where more modes may share an eigenvalue than
+///            a block has columns, it is repeated in the complement of what was
+///            found until that holds no lower mode.
 /// @throws InputError if there are fewer elastic modes than `count`;
 /// NumericalError if a residual misses its tolerance or a mode does not
 /// converge.

@@ -20,7 +20,7 @@ namespace {
 
 // Increment when the reduction or its stress modes change, to invalidate old
 // entries.
-constexpr int kReductionVersion = 13;
+constexpr int kReductionVersion = 14;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 5;
 // The same for second-order kinematics.

@@ -192,7 +192,8 @@ ReducedBody reduce_matrices(const Recipe& recipe,
   const MatrixSystem& system = part->system;
   const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
   report(progress, "static-deformation modes", 0.0);
-  const StaticModes modes = find_static_modes(meshed, recipe);
+  const StaticModes modes =
+      find_static_modes(meshed, recipe, chosen.eigenmodes);
   const ReducedBasis basis =
       join_basis(meshed, chosen.eigenmodes, modes, recipe.basis.drop_tolerance);
   const MatrixX Phi =

@@ -73,6 +73,27 @@ MatrixX find_force_modes(const ElasticBody& body, const NodalForces& nodal,
   return X * (weight * principal.vectors.rowwise().reverse().leftCols(taken));
 }
 
+/// K^+ F. What the known modes take part in is exact at once, so that the
+/// refinement only has stiffer motion to find, and needs fewer steps.
+MatrixX find_responses(const ElasticBody& body, const fem::Eigenmodes& known,
+                       const MatrixX& F) {
+  if (F.cols() == 0) return F;
+  if (known.Phi.cols() == 0) return body.inverse.solve(F);
+  return body.inverse.solve(F, known.Phi) +
+         known.Phi * (known.lambda.cwiseInverse().asDiagonal() *
+                      (known.Phi.transpose() * F));
+}
+
+/// Unit forces and moments of all interfaces, on the free degrees of freedom.
+MatrixX find_unit_loads(const ElasticBody& body) {
+  MatrixX loads(body.support.matrices.dof_count(), 0);
+  for (const Interface& interface : body.interfaces)
+    append(body.support.on_free(
+               interface.motion.spread(unit_wrenches(interface.motion))),
+           loads);
+  return loads;
+}
+
 Matrix6 find_mean_motion(const ElasticBody& body, const Interface& interface,
                          const MatrixX& answers) {
   const Matrix6 motion = interface.motion.apply(body.support.on_all(answers)) *
@@ -82,22 +103,25 @@ Matrix6 find_mean_motion(const ElasticBody& body, const Interface& interface,
 
 }  // namespace
 
-StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe) {
-  const auto solve = [&](const MatrixX& loads) {
-    return body.inverse.solve(body.support.on_free(loads));
-  };
+StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe,
+                              const fem::Eigenmodes& known) {
   StaticModes modes;
   modes.vectors.resize(body.support.matrices.dof_count(), 0);
+  // At once, since the factor is read for every solution.
+  const MatrixX responses = find_responses(body, known, find_unit_loads(body));
+  Eigen::Index column = 0;
   for (const Interface& interface : body.interfaces) {
-    const Matrix6X wrenches = unit_wrenches(interface.motion);
-    const MatrixX answers = solve(interface.motion.spread(wrenches));
+    const Eigen::Index count = unit_wrenches(interface.motion).cols();
+    const MatrixX answers = responses.middleCols(column, count);
     modes.flexibility.push_back(find_mean_motion(body, interface, answers));
     if (recipe.basis.interface_modes && interface.static_modes)
       append(answers, modes.vectors);
+    column += count;
   }
   if (recipe.basis.load_modes) {
     const MatrixX patterns = find_pattern_columns(body, recipe);
-    if (patterns.cols() > 0) append(solve(patterns), modes.vectors);
+    append(find_responses(body, known, body.support.on_free(patterns)),
+           modes.vectors);
     for (const NodalForces& nodal : recipe.nodal_forces)
       append(find_force_modes(body, nodal, modes.loads.emplace_back()),
              modes.vectors);
@@ -110,11 +134,7 @@ StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe) {
 StaticModes estimate_static_modes(const ElasticBody& body) {
   constexpr int kSteps = 3;
   const fem::SparseMatrix& M_s = body.support.matrices.M_s;
-  MatrixX loads(body.support.matrices.dof_count(), 0);
-  for (const Interface& interface : body.interfaces)
-    append(body.support.on_free(
-               interface.motion.spread(unit_wrenches(interface.motion))),
-           loads);
+  const MatrixX loads = find_unit_loads(body);
   StaticModes modes;
   modes.vectors = loads;
   if (loads.cols() == 0) return modes;

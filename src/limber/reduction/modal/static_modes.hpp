@@ -32,9 +32,11 @@ struct StaticModes {
   std::vector<LoadModesRecord> loads;  ///< per file of nodal forces
 };
 
+/// @param known modes of the body, any or none
 /// @throws InputError for nodal forces with a wrong number of rows.
 [[nodiscard]] StaticModes find_static_modes(const ElasticBody& body,
-                                            const Recipe& recipe);
+                                            const Recipe& recipe,
+                                            const fem::Eigenmodes& known);
 
 /// For Recipe::is_estimate: three steps of inverse iteration from the unit
 /// forces and moments of the interfaces, with the factor's shift s. In their
