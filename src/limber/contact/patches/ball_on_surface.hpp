@@ -38,9 +38,6 @@ class BallOnSurface final : public PatchFinder {
   void check(int modes_A, int modes_B) const override;
   [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
                                           bool has_derivatives) const override;
-  [[nodiscard]] Patch evaluate(const PatchTouch& touch) const override {
-    return touch.patch;
-  }
   void set_places(const joints::PairBodies& bodies, const PatchTouch& touch,
                   const Vector3& place_W,
                   joints::PairPoint& out) const override;

@@ -11,7 +11,9 @@ using joints::PairBodies;
 
 PartPatches::PartPatches(std::vector<PatchPart> parts_A,
                          std::vector<PatchPart> parts_B, double modulus)
-    : parts_A_(std::move(parts_A)), parts_B_(std::move(parts_B)) {
+    : parts_A_(std::move(parts_A)),
+      parts_B_(std::move(parts_B)),
+      last_patches_(parts_A_.size() * parts_B_.size()) {
   for (const PatchPart& A : parts_A_) {
     for (const PatchPart& B : parts_B_) {
       potentials_.emplace_back(A.body(), B.body(), modulus, A.flexibility(),
@@ -36,14 +38,13 @@ PatchTouches PartPatches::find_patches(const PairBodies& bodies,
   frames.visit_near(0.0, [&](std::size_t i, std::size_t j, double /*gap*/) {
     const std::size_t k = i * parts_B_.size() + j;
     PatchTouch touch{k, frames.A[i], frames.B[j], {}};
-    touch.patch = potentials_[k].evaluate({touch.A, touch.B}, has_derivatives);
+    const PairBodies parts{touch.A, touch.B};
+    touch.patch = last_patches_.find(k, parts, has_derivatives, [&] {
+      return potentials_[k].evaluate(parts, has_derivatives);
+    });
     if (touch.patch.touches) touches.add(touch);
   });
   return touches;
-}
-
-Patch PartPatches::evaluate(const PatchTouch& touch) const {
-  return potentials_[touch.index].evaluate({touch.A, touch.B}, true);
 }
 
 void PartPatches::set_places(const PairBodies& bodies, const PatchTouch& touch,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "limber/contact/patches/patch_cache.hpp"
 #include "limber/contact/patches/patch_finder.hpp"
 #include "limber/contact/patches/patch_frames.hpp"
 #include "limber/contact/patches/series_potential.hpp"
@@ -27,7 +28,6 @@ class PartPatches final : public PatchFinder {
   void check(int modes_A, int modes_B) const override;
   [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
                                           bool has_derivatives) const override;
-  [[nodiscard]] Patch evaluate(const PatchTouch& touch) const override;
   void set_places(const joints::PairBodies& bodies, const PatchTouch& touch,
                   const Vector3& place_W,
                   joints::PairPoint& out) const override;
@@ -49,6 +49,7 @@ class PartPatches final : public PatchFinder {
   std::vector<PatchPart> parts_A_;
   std::vector<PatchPart> parts_B_;
   std::vector<SeriesPotential> potentials_;  // of all pairs, those of A first
+  PatchCache last_patches_;
 };
 
 }  // namespace limber::contact

@@ -26,10 +26,10 @@ class PatchFinder {
   /// @throws InputError unless it fits bodies of so many modes.
   virtual void check(int modes_A, int modes_B) const = 0;
 
+  /// @param has_derivatives else hessian_W of some is zero; who asks for what
+  /// others ask for as well, with derivatives, asks for them too
   [[nodiscard]] virtual PatchTouches find_patches(
       const joints::PairBodies& bodies, bool has_derivatives) const = 0;
-  /// The patch of a touch again, with derivatives.
-  [[nodiscard]] virtual Patch evaluate(const PatchTouch& touch) const = 0;
   /// The material points of both bodies at a place of the world.
   virtual void set_places(const joints::PairBodies& bodies,
                           const PatchTouch& touch, const Vector3& place_W,

@@ -101,11 +101,8 @@ void PatchPair::add_missing(const PairBodies& bodies,
         return touches.find(part.index) != nullptr;
       });
   if (has_all) return;
-  for (const PatchTouch& other : finder_->find_patches(bodies, false)) {
-    if (touches.find(other.index) != nullptr) continue;
-    PatchTouch touch = other;
-    touch.patch = finder_->evaluate(touch);
-    touches.add(touch);
+  for (const PatchTouch& other : finder_->find_patches(bodies, true)) {
+    if (touches.find(other.index) == nullptr) touches.add(other);
   }
 }
 
@@ -277,7 +274,7 @@ void PatchPair::commit(const PairBodies& bodies, double t,
                        std::span<double> memory,
                        joints::PairResponse& /*scratch*/) const {
   if (!law_.has_friction()) return;
-  const PatchTouches touches = finder_->find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, true);
   PatchMotion all;
   if (!touches.is_empty()) all = find_motion(bodies, touches, memory);
   for (std::size_t i = 0; i < finder_->count(); ++i) {

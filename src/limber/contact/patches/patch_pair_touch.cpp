@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "limber/contact/law/impact_estimate.hpp"
+#include "limber/contact/law/pressure_sum.hpp"
 #include "limber/contact/patches/patch_pair.hpp"
 #include "limber/contact/patches/patch_slip.hpp"
-#include "limber/contact/patches/pressure_sum.hpp"
 #include "limber/contact/shapes/shape_measures.hpp"
 
 namespace limber::contact {
@@ -34,7 +34,7 @@ struct PatchPair::Nearest {
 // The deepest patch, or else the parts that are nearest to each other.
 PatchPair::Nearest PatchPair::find_nearest_parts(
     const PairBodies& bodies) const {
-  const PatchTouches touches = finder_->find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, true);
   const PatchTouch* deepest =
       std::max_element(touches.begin(), touches.end(),
                        [](const PatchTouch& a, const PatchTouch& b) {
@@ -157,7 +157,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
                                      joints::PairResponse& /*scratch*/) const {
   constexpr double kMostDamping = 4.0;
   joints::TouchReading reading;
-  const PatchTouches touches = finder_->find_patches(bodies, false);
+  const PatchTouches touches = finder_->find_patches(bodies, true);
   if (touches.is_empty()) return reading;
   const PatchMotion all = find_motion(bodies, touches, memory);
   Vector3 normals = Vector3::Zero();

@@ -28,6 +28,9 @@ Depth find_round(const Vector3& from_middle, double R) {
 Depth find(const Sphere& shape, const Vector3& x) {
   return find_round(x, shape.radius);
 }
+double find_t_of(const Sphere& shape, const Vector3& x) {
+  return shape.radius - x.norm();
+}
 double deepest(const Sphere& /*shape*/, const StraightLine& line) {
   return clamp_to(line.span, find_nearest_v(line.origin, line.way));
 }
@@ -40,8 +43,9 @@ void split(const Sphere& /*shape*/, const StraightLine& /*line*/,
 }
 
 // ---- side of a cylinder: phi = int 4 s^3 (R - s) ds / (R - t)
+Vector3 find_from_axis(const Vector3& x) { return {x.x(), x.y(), 0.0}; }
 Depth find_side(const Vector3& x, double R) {
-  const Vector3 out(x.x(), x.y(), 0.0);
+  const Vector3 out = find_from_axis(x);
   const double rho = out.norm();
   const double t = R - rho;
   const Vector3 gradient = -out / rho;
@@ -53,6 +57,11 @@ Depth find(const Capsule& shape, const Vector3& x) {
   const double end = std::clamp(x.z(), -shape.half_length, shape.half_length);
   if (end == x.z()) return find_side(x, shape.radius);
   return find_round(x - end * Vector3::UnitZ(), shape.radius);
+}
+double find_t_of(const Capsule& shape, const Vector3& x) {
+  const double end = std::clamp(x.z(), -shape.half_length, shape.half_length);
+  if (end == x.z()) return shape.radius - find_from_axis(x).norm();
+  return shape.radius - (x - end * Vector3::UnitZ()).norm();
 }
 // Nearest to the axis: of the endless line, of it and the place clamped to the
 // axis, then clamped to its own ends.
@@ -100,6 +109,13 @@ Depth find(const Cylinder& shape, const Vector3& x) {
   }
   const Vector3 gradient = -std::copysign(1.0, x.z()) * Vector3::UnitZ();
   return {end, gradient, power4(end) * gradient};
+}
+double find_t_of(const Cylinder& shape, const Vector3& x) {
+  const double end = shape.half_length - std::abs(x.z());
+  if (shape.radius - x.head<2>().norm() <= end) {
+    return shape.radius - find_from_axis(x).norm();
+  }
+  return end;
 }
 // Where side and end of the sign s are equally near.
 std::array<double, 2> find_rim_crossings(const Cylinder& shape,
@@ -254,10 +270,6 @@ double find_t_of(const Cone& shape, const Vector3& x) {
 }
 double find_t_of(const Ellipsoid& shape, const Vector3& x) {
   return EllipsoidField(shape).find_bound(x);
-}
-template <typename Round>
-double find_t_of(const Round& shape, const Vector3& x) {
-  return find(shape, x).t;
 }
 Span find_extent_of(const SolidField& field, const Vector3& n) {
   const ConvexSolid& solid = field.solid();

@@ -123,37 +123,48 @@ Factor RoundPair::find_factor(const Pose& X_A, const Pose& X_B,
   return factor;
 }
 
+// @param soft_A, soft_B what touches below each that counts, else null
+PairMoments RoundPair::integrate(const Pose& X_A, const Pose& X_B,
+                                 const SurfaceContact* soft_A,
+                                 const SurfaceContact* soft_B,
+                                 bool has_derivatives) const {
+  PairMoments out;
+  out.o = soft_A != nullptr ? X_A * soft_A->deepest_place()
+                            : X_B * soft_B->deepest_place();
+  const auto find = [&](const SurfaceContact& contact, const Pose& X_soft,
+                        double sign) {
+    DepthMoments moments = rotate(
+        contact.integrate(X_soft.inverse() * out.o, sign, has_derivatives),
+        X_soft.R);
+    if (moments.M > 0.0) {
+      moments.factor = moments.factor * find_factor(X_A, X_B, moments);
+    }
+    return moments;
+  };
+  if (soft_A != nullptr) out.of_A = find(*soft_A, X_A, 1.0);
+  if (soft_B != nullptr) out.of_B = find(*soft_B, X_B, -1.0);
+  if (soft_A == nullptr) out.of_A = out.of_B;
+  if (soft_B == nullptr) out.of_B = out.of_A;
+  return out;
+}
+
+// Not by optional contacts: to make one clears all of its memory.
 std::optional<PairMoments> RoundPair::find_moments(const Pose& X_A,
                                                    const Pose& X_B,
                                                    bool has_derivatives) const {
-  PairMoments out;
-  std::optional<SurfaceContact> soft_A;
-  std::optional<SurfaceContact> soft_B;
-  if (counts(A_, B_)) {
-    soft_A.emplace(A_, B_, X_A.inverse() * X_B);
-    if (!soft_A->touches()) return {};
-    out.o = X_A * soft_A->deepest_place();
-  }
-  if (counts(B_, A_)) {
-    soft_B.emplace(B_, A_, X_B.inverse() * X_A);
-    if (!soft_B->touches()) return {};
-    if (!soft_A) out.o = X_B * soft_B->deepest_place();
-  }
-  const auto integrate = [&](const SurfaceContact& contact, const Pose& X_soft,
-                             double sign) {
-    return rotate(
-        contact.integrate(X_soft.inverse() * out.o, sign, has_derivatives),
-        X_soft.R);
+  const auto find =
+      [&](const SurfaceContact* soft_A) -> std::optional<PairMoments> {
+    if (!counts(B_, A_)) {
+      return integrate(X_A, X_B, soft_A, nullptr, has_derivatives);
+    }
+    const SurfaceContact soft_B(B_, A_, X_B.inverse() * X_A);
+    if (!soft_B.touches()) return {};
+    return integrate(X_A, X_B, soft_A, &soft_B, has_derivatives);
   };
-  if (soft_A) out.of_A = integrate(*soft_A, X_A, 1.0);
-  if (soft_B) out.of_B = integrate(*soft_B, X_B, -1.0);
-  for (DepthMoments* moments : {&out.of_A, &out.of_B}) {
-    if (!(moments->M > 0.0)) continue;
-    moments->factor = moments->factor * find_factor(X_A, X_B, *moments);
-  }
-  if (!soft_A) out.of_A = out.of_B;
-  if (!soft_B) out.of_B = out.of_A;
-  return out;
+  if (!counts(A_, B_)) return find(nullptr);
+  const SurfaceContact soft_A(A_, B_, X_A.inverse() * X_B);
+  if (!soft_A.touches()) return {};
+  return find(&soft_A);
 }
 
 }  // namespace limber::contact

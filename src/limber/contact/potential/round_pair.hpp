@@ -44,6 +44,10 @@ class RoundPair {
       const Pose& X_A, const Pose& X_B, bool has_derivatives) const;
 
  private:
+  [[nodiscard]] PairMoments integrate(const Pose& X_A, const Pose& X_B,
+                                      const SurfaceContact* soft_A,
+                                      const SurfaceContact* soft_B,
+                                      bool has_derivatives) const;
   // c of the pair of kinds
   [[nodiscard]] Factor find_factor(const Pose& X_A, const Pose& X_B,
                                    const DepthMoments& moments) const;

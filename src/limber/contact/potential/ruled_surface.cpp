@@ -22,6 +22,12 @@ double find_cosine(const RuledSurface& surface) {
   return std::sqrt(1.0 - surface.sine * surface.sine);
 }
 
+StraightLine find_side_line(const RuledSurface& side, const Vector3& radial) {
+  return {side.centre + side.radius * radial,
+          find_cosine(side) * side.e3 - side.sine * radial,
+          {-side.half_v, side.half_v}};
+}
+
 // cot(b / 2) = (1 + cos b) / sin b
 double find_rim_slope(const RuledSurface& rim) {
   return (1.0 + rim.sine) / find_cosine(rim);
@@ -111,12 +117,8 @@ StraightLine RuledSurface::find_line(double at) const {
       const double half = radius * std::cos(at);
       return {centre + radius * std::sin(at) * e1, e2, {-half, half}};
     }
-    case Kind::kSide: {
-      const Vector3 radial = find_radial(*this, at);
-      return {centre + radius * radial,
-              find_cosine(*this) * e3 - sine * radial,
-              {-half_v, half_v}};
-    }
+    case Kind::kSide:
+      return find_side_line(*this, find_radial(*this, at));
     case Kind::kRim:
       break;
   }
@@ -128,9 +130,13 @@ StraightLine RuledSurface::find_line(double at) const {
 
 Vector3 RuledSurface::find_area(double at) const {
   if (is_flat()) return e3;
-  if (kind == Kind::kDisc) return radius * std::cos(at) * e3;
+  return radius * std::cos(at) * e3;
+}
+
+StraightLine RuledSurface::find_line(double at, Vector3& area) const {
   const Vector3 radial = find_radial(*this, at);
-  return radius * (find_cosine(*this) * radial + sine * e3);
+  area = radius * (find_cosine(*this) * radial + sine * e3);
+  return find_side_line(*this, radial);
 }
 
 // Rim, R - t k in radius, dS = (R - t k) du dv / sin(b / 2), k = cot(b / 2), b

@@ -56,8 +56,10 @@ struct RuledSurface {
     return kind == Kind::kSide || kind == Kind::kRim;
   }
   [[nodiscard]] StraightLine find_line(double u) const;
-  /// Outward normal times the area by du dv at v = 0; of no sheet.
+  /// Outward normal times the area by du dv at v = 0; of a flat or disc.
   [[nodiscard]] Vector3 find_area(double u) const;
+  /// Of a side, both. @param area gets that of its line
+  [[nodiscard]] StraightLine find_line(double u, Vector3& area) const;
   /// The area at v, over that at v = 0.
   [[nodiscard]] double find_width(double v) const {
     return narrows() ? 1.0 - v * sine / radius : 1.0;

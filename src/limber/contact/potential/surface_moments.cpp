@@ -26,15 +26,17 @@ class PartQuadrature {
     if (surface_.has_one_normal()) {
       auto all = sums.begin_line();
       visit_lines(cuts, [&](double u, double weight) {
-        add_line(u, weight * surface_.find_area(u).dot(surface_.e3), all);
+        add_line(surface_.find_line(u),
+                 weight * surface_.find_area(u).dot(surface_.e3), all);
       });
       sums.add(all, surface_.e3);
       return;
     }
     visit_lines(cuts, [&](double u, double weight) {
       auto line = sums.begin_line();
-      add_line(u, 1.0, line);
-      sums.add(line, weight * surface_.find_area(u));
+      Vector3 area;
+      add_line(surface_.find_line(u, area), 1.0, line);
+      sums.add(line, weight * area);
     });
   }
 
@@ -82,8 +84,7 @@ class PartQuadrature {
   }
 
   template <typename LineOf>
-  void add_line(double u, double weight, LineOf& sums) const {
-    const StraightLine line = surface_.find_line(u);
+  void add_line(const StraightLine& line, double weight, LineOf& sums) const {
     const Span part = soft_.cut(line);
     if (part.is_empty()) return;
     LinePieces pieces;

@@ -18,8 +18,21 @@ using Slopes = Eigen::Matrix<double, 10, 6>;
 // 1, r and r r': xx, yy, zz, xy, xz, yz
 inline Weights10 find_powers(const Vector3& r) {
   Weights10 powers;
-  powers << 1.0, r, r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
+  powers[0] = 1.0;
+  powers.segment<3>(1) = r;
+  powers.segment<3>(4) = r.cwiseAbs2();
+  powers[7] = r.x() * r.y();
+  powers[8] = r.x() * r.z();
+  powers[9] = r.y() * r.z();
   return powers;
+}
+
+// Of the depth at r, by a motion (u, theta) about o.
+inline Vector6 find_rate(const Depth& depth, const Vector3& r) {
+  Vector6 g;
+  g.head<3>() = depth.gradient;
+  g.tail<3>() = r.cross(depth.gradient);
+  return g;
 }
 
 inline Matrix3 unfold(const Eigen::Matrix<double, 6, 1>& s) {
@@ -39,8 +52,7 @@ struct LineSums {
     const Weights10 powers = find_powers(r);
     flux += weight * depth.flux;
     cubed += (4.0 * weight * t2 * depth.t) * powers;
-    Vector6 g;
-    g << depth.gradient, r.cross(depth.gradient);
+    const Vector6 g = find_rate(depth, r);
     by_motion += ((12.0 * weight * t2) * powers) * g.transpose();
   }
 };
@@ -156,8 +168,7 @@ class BendSums {
     Matrix6 bend = Matrix6::Zero();
 
     void add(const Depth& depth, const Vector3& r, double weight) {
-      Vector6 g;
-      g << depth.gradient, r.cross(depth.gradient);
+      const Vector6 g = find_rate(depth, r);
       const double by = 24.0 * weight * depth.t * a.dot(find_powers(r));
       bend += (by * g) * g.transpose();
     }

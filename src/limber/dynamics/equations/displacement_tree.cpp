@@ -2,6 +2,7 @@
 #include "limber/dynamics/equations/displacement_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -13,7 +14,7 @@ namespace {
 
 // Largest number of nodes in a smallest box: with more, too many are evaluated;
 // with fewer, the bounds cost more than they save.
-constexpr int kLeaf = 32;
+constexpr int kLeaf = 8;
 
 }  // namespace
 
@@ -68,10 +69,20 @@ int DisplacementTree::add_box(const Matrix3X& x, const MatrixX& Phi,
 }
 
 double DisplacementTree::find_bound(int box, const VectorX& eta) const {
+  constexpr double kRoundOff = 1e-12;
   const auto& bound = bounds_[index(box)];
-  const Vector3 u(bound.col(0).dot(eta), bound.col(1).dot(eta),
-                  bound.col(2).dot(eta));
-  return u.norm() + bound.col(3).dot(eta.cwiseAbs());
+  const Eigen::Index m = eta.size();
+  const double* at = bound.data();
+  std::array<double, 4> sum{};
+  for (Eigen::Index k = 0; k < m; ++k, ++at) {
+    sum[0] += at[0] * eta[k];
+    sum[1] += at[m] * eta[k];
+    sum[2] += at[2 * m] * eta[k];
+    sum[3] += at[3 * m] * std::abs(eta[k]);
+  }
+  const double middle =
+      std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+  return (1.0 + kRoundOff) * (middle + sum[3]);
 }
 
 void DisplacementTree::search_leaf(int box, const VectorX& eta,
