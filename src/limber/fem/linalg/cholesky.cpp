@@ -142,7 +142,8 @@ MatrixX SparseCholesky::solve(const MatrixX& right_hand_side) const {
 void SparseCholesky::solve_in_place(Eigen::Ref<MatrixX> x) const {
   const SerialBlas serial;
   const Eigen::Index blocks = (x.cols() + kColumns - 1) / kColumns;
-  const Eigen::Index parts = std::min<Eigen::Index>(thread_count(), blocks);
+  const Eigen::Index parts =
+      blocks > 1 ? std::min<Eigen::Index>(thread_count(), blocks) : 1;
   std::vector<std::unique_ptr<CholmodSolver>>& solvers = impl_->solvers;
   while (std::ssize(solvers) < parts) {
     solvers.push_back(std::make_unique<CholmodSolver>());
@@ -155,7 +156,7 @@ void SparseCholesky::solve_in_place(Eigen::Ref<MatrixX> x) const {
           x.middleCols(first, std::min(kColumns, x.cols() - first)));
     }
   };
-  if (parts == 1) return solve_part(0);  // without allocation
+  if (parts == 1) return solve_part(0);  // without allocation or threads
   parallel_ranges(static_cast<std::size_t>(parts),
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t part = begin; part < end; ++part) {

@@ -225,7 +225,7 @@ void restart(const dense::Eigenpairs& ritz, Eigen::Index kept,
 MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
                Eigen::Index count, const Progress& progress) {
   constexpr double kTolerance = 1e-10;  // of theta
-  constexpr int kMostBlocks = 10000;
+  constexpr int kMostBlocks = 1000;
   const Eigen::Index room = count_elastic(inverse) - known.cols();
   const Eigen::Index block = std::min(kBlock, room);
   const Eigen::Index most = std::min(2 * count + 8 * block, room);

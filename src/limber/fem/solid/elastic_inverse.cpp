@@ -70,17 +70,6 @@ MatrixX remove_span(const MatrixX& X, const MatrixX& U, const MatrixX& W) {
   return X - U * (W.transpose() * X);
 }
 
-/// V with V' K V = I, of columns that are K-orthogonal.
-MatrixX scale_to_unit_stiffness(const StructuralMatrices& matrices,
-                                const MatrixX& modes) {
-  const VectorX stiffnesses =
-      modes.cwiseProduct(multiply_stiffness(matrices, modes))
-          .colwise()
-          .sum()
-          .transpose();
-  return modes * stiffnesses.cwiseSqrt().cwiseInverse().asDiagonal();
-}
-
 constexpr double kLong = 20.0;  // s; eigenmodes take about as long again
 
 // @param order of degrees of freedom, those of a node adjacent
@@ -138,24 +127,56 @@ MatrixX ElasticInverse::solve_shifted(const MatrixX& F) const {
   return project_motion(factor_.solve(project_load(F)));
 }
 
+ElasticInverse::Span ElasticInverse::scale(const MatrixX& modes) const {
+  if (modes.cols() == 0) {
+    const MatrixX none(matrices_->dof_count(), 0);
+    return {none, none};
+  }
+  const MatrixX K_modes = multiply_stiffness(*matrices_, modes);
+  const VectorX factors = modes.cwiseProduct(K_modes)
+                              .colwise()
+                              .sum()
+                              .transpose()
+                              .cwiseSqrt()
+                              .cwiseInverse();
+  return {modes * factors.asDiagonal(), K_modes * factors.asDiagonal()};
+}
+
 MatrixX ElasticInverse::solve(const MatrixX& F, const MatrixX& modes) const {
+  const Span span = scale(modes);
+  // D and D', with which the solution and what is left of the load vanish on
+  // the modes together, whatever the shift.
+  return refine(remove_span(project_load(F), span.KV, span.V),
+                [&](const MatrixX& load) {
+                  return remove_span(solve_shifted(load), span.V, span.KV);
+                });
+}
+
+MatrixX ElasticInverse::solve_from(const MatrixX& F,
+                                   const MatrixX& modes) const {
+  const Span span = scale(modes);
+  return refine(project_load(F), [&](const MatrixX& load) {
+    const MatrixX rest = remove_span(load, span.KV, span.V);
+    return MatrixX(span.V * (span.V.transpose() * load) +
+                   remove_span(solve_shifted(rest), span.V, span.KV));
+  });
+}
+
+MatrixX ElasticInverse::refine(
+    const MatrixX& load,
+    const std::function<MatrixX(const MatrixX&)>& approximate) const {
   constexpr int kMaxSteps = 60;
   constexpr double kTolerance = 1e-13;  // correction, relative to the solution
   constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
   constexpr double kCoarse = 1e-9;      // accuracy that the matrix suffices for
-  // D and D', with which the solution and what is left of the load vanish on
-  // the modes together, whatever the shift.
-  const MatrixX V = scale_to_unit_stiffness(*matrices_, modes);
-  const MatrixX KV = multiply_stiffness(*matrices_, V);
-  const MatrixX load = remove_span(project_load(F), KV, V);
-  MatrixX X = remove_span(solve_shifted(load), V, KV);
+  if (load.cols() == 0) return load;
+  MatrixX X = approximate(load);
   double previous = std::numeric_limits<double>::infinity();
   bool is_fine = false;  // residual by the product, which costs more
   for (int step = 0; step < kMaxSteps; ++step) {
-    const MatrixX correction = remove_span(
-        solve_shifted(is_fine ? calc_residual(*matrices_, load, X)
-                              : load - multiply_stiffness(matrices_->K, X)),
-        V, KV);
+    const MatrixX correction =
+        approximate(is_fine ? calc_residual(*matrices_, load, X)
+                            : load - multiply_stiffness(matrices_->K, X));
     X += correction;
     const double change =
         (correction.colwise().norm().array() /

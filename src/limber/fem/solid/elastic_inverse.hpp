@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,15 @@ class ElasticInverse {
   /// @throws NumericalError if the refinement stalls.
   [[nodiscard]] MatrixX solve(const MatrixX& F, const MatrixX& modes) const;
 
+  /// K^+ F, refined from its part in `modes`, which is found exactly: with the
+  /// lowest eigenmodes in a few steps.
+  ///
+  /// Equation   x <- x + V V' r + D P (K - s M)^-1 P^T D' r, r = F - K x
+  /// @param modes V, as above
+  /// @throws NumericalError if the refinement stalls.
+  [[nodiscard]] MatrixX solve_from(const MatrixX& F,
+                                   const MatrixX& modes) const;
+
   /// P X: without rigid motion.
   [[nodiscard]] MatrixX project_motion(const MatrixX& X) const;
   /// P^T F: without net force and moment.
@@ -74,6 +84,16 @@ class ElasticInverse {
   }
 
  private:
+  struct Span {
+    MatrixX V;  // V' K V = I
+    MatrixX KV;
+  };
+  [[nodiscard]] Span scale(const MatrixX& modes) const;
+  // @param approximate a solution, of a load
+  [[nodiscard]] MatrixX refine(
+      const MatrixX& load,
+      const std::function<MatrixX(const MatrixX&)>& approximate) const;
+
   const StructuralMatrices* matrices_;
   MatrixX R_;
   MatrixX MR_;

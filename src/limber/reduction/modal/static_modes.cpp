@@ -73,17 +73,6 @@ MatrixX find_force_modes(const ElasticBody& body, const NodalForces& nodal,
   return X * (weight * principal.vectors.rowwise().reverse().leftCols(taken));
 }
 
-/// K^+ F. What the known modes take part in is exact at once, so that the
-/// refinement only has stiffer motion to find, and needs fewer steps.
-MatrixX find_responses(const ElasticBody& body, const fem::Eigenmodes& known,
-                       const MatrixX& F) {
-  if (F.cols() == 0) return F;
-  if (known.Phi.cols() == 0) return body.inverse.solve(F);
-  return body.inverse.solve(F, known.Phi) +
-         known.Phi * (known.lambda.cwiseInverse().asDiagonal() *
-                      (known.Phi.transpose() * F));
-}
-
 /// Unit forces and moments of all interfaces, on the free degrees of freedom.
 MatrixX find_unit_loads(const ElasticBody& body) {
   MatrixX loads(body.support.matrices.dof_count(), 0);
@@ -108,7 +97,8 @@ StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe,
   StaticModes modes;
   modes.vectors.resize(body.support.matrices.dof_count(), 0);
   // At once, since the factor is read for every solution.
-  const MatrixX responses = find_responses(body, known, find_unit_loads(body));
+  const MatrixX responses =
+      body.inverse.solve_from(find_unit_loads(body), known.Phi);
   Eigen::Index column = 0;
   for (const Interface& interface : body.interfaces) {
     const Eigen::Index count = unit_wrenches(interface.motion).cols();
@@ -120,7 +110,7 @@ StaticModes find_static_modes(const ElasticBody& body, const Recipe& recipe,
   }
   if (recipe.basis.load_modes) {
     const MatrixX patterns = find_pattern_columns(body, recipe);
-    append(find_responses(body, known, body.support.on_free(patterns)),
+    append(body.inverse.solve_from(body.support.on_free(patterns), known.Phi),
            modes.vectors);
     for (const NodalForces& nodal : recipe.nodal_forces)
       append(find_force_modes(body, nodal, modes.loads.emplace_back()),
