@@ -12,11 +12,11 @@
 
 namespace limber::contact {
 
-/// The last patches of pairs of parts, by the poses of both parts: those who
-/// watch an accepted step, and the next step, ask at the same poses again.
+/// The last patches of pairs of parts, by the poses of both parts: monitors of
+/// an accepted step, and the next step, ask at the same poses again.
 ///
-/// Limits     two of each pair, of more than kMostSets pairs some replace
-///            others; a thread that meets another one here goes without
+/// Limits     two patches a pair; of more than kMostSets pairs, some replace
+///            others. While a thread reads or writes, others do without it.
 class PatchCache {
  public:
   /// @param pairs of parts

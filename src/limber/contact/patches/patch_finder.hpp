@@ -26,8 +26,9 @@ class PatchFinder {
   /// @throws InputError unless it fits bodies of so many modes.
   virtual void check(int modes_A, int modes_B) const = 0;
 
-  /// @param has_derivatives else hessian_W of some is zero; who asks for what
-  /// others ask for as well, with derivatives, asks for them too
+  /// @param has_derivatives false: hessian_W may be zero. Where the next step
+  /// asks for derivatives at the same state, others do too, so that patches are
+  /// found once
   [[nodiscard]] virtual PatchTouches find_patches(
       const joints::PairBodies& bodies, bool has_derivatives) const = 0;
   /// The material points of both bodies at a place of the world.
