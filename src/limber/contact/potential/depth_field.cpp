@@ -43,9 +43,8 @@ void split(const Sphere& /*shape*/, const StraightLine& /*line*/,
 }
 
 // ---- side of a cylinder: phi = int 4 s^3 (R - s) ds / (R - t)
-Vector3 find_from_axis(const Vector3& x) { return {x.x(), x.y(), 0.0}; }
 Depth find_side(const Vector3& x, double R) {
-  const Vector3 out = find_from_axis(x);
+  const Vector3 out(x.x(), x.y(), 0.0);
   const double rho = out.norm();
   const double t = R - rho;
   const Vector3 gradient = -out / rho;
@@ -60,7 +59,6 @@ Depth find(const Capsule& shape, const Vector3& x) {
 }
 double find_t_of(const Capsule& shape, const Vector3& x) {
   const double end = std::clamp(x.z(), -shape.half_length, shape.half_length);
-  if (end == x.z()) return shape.radius - find_from_axis(x).norm();
   return shape.radius - (x - end * Vector3::UnitZ()).norm();
 }
 // Nearest to the axis: of the endless line, of it and the place clamped to the
@@ -111,11 +109,8 @@ Depth find(const Cylinder& shape, const Vector3& x) {
   return {end, gradient, power4(end) * gradient};
 }
 double find_t_of(const Cylinder& shape, const Vector3& x) {
-  const double end = shape.half_length - std::abs(x.z());
-  if (shape.radius - x.head<2>().norm() <= end) {
-    return shape.radius - find_from_axis(x).norm();
-  }
-  return end;
+  return std::min(shape.radius - x.head<2>().norm(),
+                  shape.half_length - std::abs(x.z()));
 }
 // Where side and end of the sign s are equally near.
 std::array<double, 2> find_rim_crossings(const Cylinder& shape,

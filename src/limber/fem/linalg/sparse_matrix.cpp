@@ -18,35 +18,21 @@ MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
     return Y;
   }
   LIMBER_EXPECT(X.rows() == 3 * M_s.cols());
-  // Column j of the symmetric M_s is its row j: each node gathers alone.
-  const auto gather = [&](Eigen::Index column, Eigen::Index begin,
-                          Eigen::Index end) {
-    const double* const x = X.col(column).data();
-    double* const y = Y.col(column).data();
-    for (Eigen::Index j = begin; j < end; ++j) {
+  // Column j of the symmetric M_s is its row j: each node of each column
+  // gathers alone.
+  const auto nodes = static_cast<std::size_t>(M_s.cols());
+  const auto columns = static_cast<std::size_t>(X.cols());
+  parallel_ranges(nodes * columns, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto column = static_cast<Eigen::Index>(i / nodes);
+      const auto j = static_cast<Eigen::Index>(i % nodes);
+      const auto x = X.col(column);
       Vector3 sum = Vector3::Zero();
-      for (SparseMatrix::InnerIterator it(M_s, j); it; ++it) {
-        sum += it.value() * Eigen::Map<const Vector3>(x + 3 * it.row());
-      }
-      Eigen::Map<Vector3>(y + 3 * j) = sum;
+      for (SparseMatrix::InnerIterator it(M_s, j); it; ++it)
+        sum += it.value() * x.segment<3>(3 * it.row());
+      Y.col(column).segment<3>(3 * j) = sum;
     }
-  };
-  const auto index_of = [](std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-  };
-  if (X.cols() == 1) {
-    parallel_ranges(static_cast<std::size_t>(M_s.cols()),
-                    [&](std::size_t begin, std::size_t end) {
-                      gather(0, index_of(begin), index_of(end));
-                    });
-    return Y;
-  }
-  parallel_ranges(static_cast<std::size_t>(X.cols()),
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t column = begin; column < end; ++column) {
-                      gather(index_of(column), 0, M_s.cols());
-                    }
-                  });
+  });
   return Y;
 }
 

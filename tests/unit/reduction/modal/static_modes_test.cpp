@@ -8,8 +8,6 @@
 namespace limber::flexbody::static_modes_test {
 namespace {
 
-using testing::Bar;
-
 class FreeAndClampedBar : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Support, FreeAndClampedBar, ::testing::Bool(),
                          [](const auto& p) {
