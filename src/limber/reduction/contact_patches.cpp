@@ -49,8 +49,8 @@ class PatchMaker {
     for (const double least : {0.5, 0.0, -1.0}) {
       std::map<int, double> fractions;
       for (const int face : faces)
-        add_shares(surface_.faces[index(face)], {x, normal, radius, least},
-                   fractions);
+        add_contributions(surface_.faces[index(face)],
+                          {x, normal, radius, least}, fractions);
       if (!fractions.empty()) return normalise(fractions, normal, radius);
     }
     LIMBER_EXPECT(!"a patch holds a point of its surface");
@@ -65,8 +65,8 @@ class PatchMaker {
     double least_cosine;  // between the surface's normal and the patch's
   };
 
-  void add_shares(const fem::SurfaceFace& face, const Place& place,
-                  std::map<int, double>& fractions) {
+  void add_contributions(const fem::SurfaceFace& face, const Place& place,
+                         std::map<int, double>& fractions) {
     const Matrix3X x = mesh_.x(Eigen::all, face.nodes);
     const fem::FaceTable& rule = find_rule(face, place.radius);
     const Matrix3X points = x * rule.shape;

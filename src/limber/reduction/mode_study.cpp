@@ -19,9 +19,9 @@ std::vector<LoadCaseStudy> study_loads(const ElasticBody& body,
   if (recipe.load_patterns.empty() && recipe.nodal_forces.empty()) return {};
   const LoadCases cases =
       find_load_cases(body, recipe, ModeMeasure::compliance);
-  const CaseShares work =
-      find_shares(ModeMeasure::compliance, modes, cases, body, progress);
-  CaseShares masses{
+  const CaseContributions work =
+      find_contributions(ModeMeasure::compliance, modes, cases, body, progress);
+  CaseContributions masses{
       calc_report_effective_mass(modes.Phi, modes.lambda,
                                  body.support.matrices.M_s, cases.loads),
       VectorX()};
@@ -31,9 +31,9 @@ std::vector<LoadCaseStudy> study_loads(const ElasticBody& body,
   for (Eigen::Index k = 0; k < cases.count(); ++k) {
     LoadCaseStudy study;
     study.name = cases.names[static_cast<std::size_t>(k)];
-    study.effective_mass = masses.shares.col(k);
+    study.effective_mass = masses.by_mode.col(k);
     if (has_total) study.effective_mass_total = masses.totals[k];
-    study.compliance = work.shares.col(k);
+    study.compliance = work.by_mode.col(k);
     study.compliance_total = work.totals[k];
     studies.push_back(std::move(study));
   }

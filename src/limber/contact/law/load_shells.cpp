@@ -70,8 +70,8 @@ ShellMemory LoadShells::move(const ShellMemory& memory,
 
 // dk/dN = (p - 1) / d; the load below a level k_j stays, so that dL_j/dN =
 // 1 - k_j / k.
-LoadShells::Shares LoadShells::find_shares(double lowest,
-                                           const ShellLoad& load) const {
+LoadShells::Parts LoadShells::find_parts(double lowest,
+                                         const ShellLoad& load) const {
   const double N = load.force;
   const double k = load.stiffness;
   const double p = load.exponent;
@@ -81,7 +81,7 @@ LoadShells::Shares LoadShells::find_shares(double lowest,
   const double k_by_load = (p - 1.0) / d;
   const double by_softening =
       softened > 0.5 ? -load.residual * k_by_load / softened : 0.0;
-  Shares shares = {};
+  Parts parts = {};
   double load_above = 0.0;
   double load_above_by_load = 0.0;
   for (std::size_t i = kShells; i-- > 0;) {
@@ -95,16 +95,16 @@ LoadShells::Shares LoadShells::find_shares(double lowest,
     const double x = is_lowest ? 0.0 : std::pow(k_low / k, 1.0 / (p - 1.0));
     const double L = N * (1.0 - std::pow(x, p)) - k_low * d * (1.0 - x);
     const double L_by_load = 1.0 - k_low / k;
-    Share& share = shares[i];
-    share.stiffness = kappa * (std::min(k, k_next) - k_low);
-    share.stiffness_by_load = by_softening * share.stiffness;
-    if (is_top) share.stiffness_by_load += kappa * k_by_load;
-    share.load = std::max(L - load_above, 0.0);
-    share.load_by_load = L_by_load - load_above_by_load;
+    Part& part = parts[i];
+    part.stiffness = kappa * (std::min(k, k_next) - k_low);
+    part.stiffness_by_load = by_softening * part.stiffness;
+    if (is_top) part.stiffness_by_load += kappa * k_by_load;
+    part.load = std::max(L - load_above, 0.0);
+    part.load_by_load = L_by_load - load_above_by_load;
     load_above = L;
     load_above_by_load = L_by_load;
   }
-  return shares;
+  return parts;
 }
 
 double LoadShells::find_energy(const LoadShell& shell) const {
@@ -121,27 +121,27 @@ double LoadShells::find_energy(const ShellMemory& memory) const {
 }
 
 // The work of the spring except for its energy is T . (u* - T / k).
-void LoadShells::add_shell(const LoadShell& before, const Share& share,
+void LoadShells::add_shell(const LoadShell& before, const Part& part,
                            const ShellMotion& motion, double limit_by_load,
                            ShellResponse& out, LoadShell& next) const {
-  if (!(share.stiffness > 0.0)) return;
-  const double k = share.stiffness;
+  if (!(part.stiffness > 0.0)) return;
+  const double k = part.stiffness;
   const Vector3 ratios(1.0, 1.0, parameters_.spin_ratio);
   const bool is_released = k < before.stiffness;
   LoadShell released{k, before.spring};
   if (is_released) released.spring *= k / before.stiffness;
   const Vector3 way = ratios.cwiseProduct(motion.increment);
   const Vector3 trial = released.spring + k * way;
-  const Within<3> spring(trial, limit_by_load * share.load);
-  Vector3 trial_by_load = share.stiffness_by_load * way;
+  const Within<3> spring(trial, limit_by_load * part.load);
+  Vector3 trial_by_load = part.stiffness_by_load * way;
   if (is_released) {
-    trial_by_load += share.stiffness_by_load / before.stiffness * before.spring;
+    trial_by_load += part.stiffness_by_load / before.stiffness * before.spring;
   }
   next = {k, spring.value};
   out.force -= spring.value;
   // A spring on the cone slips as long as it is pulled outward.
   constexpr double kOnCone = 1.0 - 1e-9;
-  const bool goes_on = trial.norm() >= kOnCone * limit_by_load * share.load &&
+  const bool goes_on = trial.norm() >= kOnCone * limit_by_load * part.load &&
                        ratios.cwiseProduct(motion.velocity).dot(trial) > 0.0;
   out.slips = out.slips && (spring.is_cut || goes_on);
   out.energy += find_energy(next);
@@ -155,9 +155,9 @@ void LoadShells::add_shell(const LoadShell& before, const Share& share,
   out.slip_work -= find_energy(released);
   out.by_increment -= k * spring.by_value * ratios.asDiagonal();
   out.by_load -= spring.by_value * trial_by_load +
-                 limit_by_load * share.load_by_load * spring.by_most;
+                 limit_by_load * part.load_by_load * spring.by_most;
   // By the limit over mu g: also for the velocity.
-  out.by_grip -= share.load * spring.by_most;
+  out.by_grip -= part.load * spring.by_most;
 }
 
 ShellResponse LoadShells::evaluate(const ShellMemory& memory,
@@ -172,12 +172,12 @@ ShellResponse LoadShells::evaluate(const ShellMemory& memory,
       speed > 0.0 ? Vector3(mu.slope / speed * motion.velocity)
                   : Vector3(Vector3::Zero());
   const ShellMemory before = move(memory, load);
-  const Shares shares = find_shares(before.lowest, load);
+  const Parts parts = find_parts(before.lowest, load);
   out.slips = true;
   out.slip_work = find_energy(memory);
   out.next.lowest = before.lowest;
   for (std::size_t i = 0; i < kShells; ++i) {
-    add_shell(before.shells[i], shares[i], motion, mu.value * load.grip, out,
+    add_shell(before.shells[i], parts[i], motion, mu.value * load.grip, out,
               out.next.shells[i]);
   }
   const Vector3 by_limit = out.by_grip;
@@ -201,8 +201,9 @@ ShellResponse LoadShells::evaluate(const ShellMemory& memory,
   return out;
 }
 
-double find_spring_damping(double stiffness, double mass, double share) {
-  return 2.0 * share * std::sqrt(stiffness * mass);
+double find_spring_damping(double stiffness, double mass,
+                           double damping_ratio) {
+  return 2.0 * damping_ratio * std::sqrt(stiffness * mass);
 }
 
 }  // namespace limber::contact

@@ -98,27 +98,27 @@ class LoadShells {
 
  private:
   // A shell under a load, with its derivatives by N.
-  struct Share {
+  struct Part {
     double stiffness = 0.0;
     double stiffness_by_load = 0.0;
     double load = 0.0;
     double load_by_load = 0.0;
   };
-  using Shares = std::array<Share, kShells>;
+  using Parts = std::array<Part, kShells>;
   [[nodiscard]] double find_stiffness(double level) const;
   [[nodiscard]] ShellMemory move(const ShellMemory& memory,
                                  const ShellLoad& load) const;
-  [[nodiscard]] Shares find_shares(double lowest, const ShellLoad& load) const;
+  [[nodiscard]] Parts find_parts(double lowest, const ShellLoad& load) const;
   [[nodiscard]] double find_energy(const LoadShell& shell) const;
-  void add_shell(const LoadShell& before, const Share& share,
+  void add_shell(const LoadShell& before, const Part& part,
                  const ShellMotion& motion, double limit_by_load,
                  ShellResponse& out, LoadShell& next) const;
 
   Parameters parameters_;
 };
 
-/// c_t as a fraction [-] of the critical damping of `mass` on k_t [N s/m].
+/// c_t by its damping ratio [-] with `mass` on k_t [N s/m].
 [[nodiscard]] double find_spring_damping(double stiffness, double mass,
-                                         double share = 0.1);
+                                         double damping_ratio = 0.1);
 
 }  // namespace limber::contact

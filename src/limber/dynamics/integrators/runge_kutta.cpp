@@ -29,7 +29,7 @@ void add(const From& from, const Left& left, const Increment& increment,
 }
 
 /// q exp(theta) - q, including the correction of |q| to 1.
-Eigen::Vector4d find_turn(const Quaternion& q, const Vector3& theta) {
+Eigen::Vector4d find_change(const Quaternion& q, const Vector3& theta) {
   Quaternion less_one = exp_quaternion(theta);
   less_one.w() = -less_one.vec().squaredNorm() / (1.0 + less_one.w());
   return (q * less_one).coeffs() + (1.0 / q.norm() - 1.0) * q.coeffs();
@@ -114,7 +114,7 @@ void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
     add(old.p_WB, left.p_WB, translation_rows(model, moved_), carry.p_WB,
         body.p_WB);
     add(old.quat_WB.coeffs(), left.quat_WB.coeffs(),
-        find_turn(old.quat_WB, rotation_rows(model, moved_)),
+        find_change(old.quat_WB, rotation_rows(model, moved_)),
         carry.quat_WB.coeffs(), body.quat_WB.coeffs());
     add(old.v_WB_W, left.v_WB_W, translation_rows(model, work_), carry.v_WB_W,
         body.v_WB_W);

@@ -157,7 +157,7 @@ void check_reference_element(const ReferenceElement& element) {
   check_faces(element);
 }
 
-std::vector<Element> share(std::vector<ReferenceElement> values) {
+std::vector<Element> make_shared(std::vector<ReferenceElement> values) {
   std::vector<Element> elements;
   for (ReferenceElement& value : values) {
     check_reference_element(value);
@@ -269,7 +269,7 @@ Mesh from_wire(WireMesh wire) {
   mesh.x = std::move(wire.x);
   mesh.tags = std::move(wire.tags);
   mesh.volume_groups = std::move(wire.volume_groups);
-  const std::vector<Element> elements = share(std::move(wire.elements));
+  const std::vector<Element> elements = make_shared(std::move(wire.elements));
   const std::size_t count = mesh.tags.size();
   mesh.blocks = from_wire(std::move(wire.blocks), elements, count);
   check_solids(mesh);

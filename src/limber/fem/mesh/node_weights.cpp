@@ -15,12 +15,12 @@ namespace limber::fem {
 namespace {
 
 /// int N dA of a node, and int N x dA.
-struct Share {
+struct Contribution {
   double area = 0.0;
   Vector3 moment = Vector3::Zero();
 };
 
-using Shares = std::map<int, Share>;
+using Contributions = std::map<int, Contribution>;
 using Tangents = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// Normal of a face, as long as its area ratio.
@@ -36,12 +36,13 @@ double calc_measure(const Tangents& tangents) {
 }
 
 /// Adds one element's, or one of its faces', to those nodes that are in
-/// `shares`.
+/// `contributions`.
 /// @param dimension of what is integrated over @param x of all its nodes
 /// @param measure of a map's tangents: length, area, volume, or part of it
 template <typename Measure>
-void add_shares(const Quadrature& rule, int dimension, const Matrix3X& x,
-                const int* nodes, const Measure& measure, Shares& shares) {
+void add_contributions(const Quadrature& rule, int dimension, const Matrix3X& x,
+                       const int* nodes, const Measure& measure,
+                       Contributions& contributions) {
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const MatrixX& gradients = rule.gradients[static_cast<std::size_t>(q)];
     const Tangents tangents = x * gradients.topRows(dimension).transpose();
@@ -49,8 +50,8 @@ void add_shares(const Quadrature& rule, int dimension, const Matrix3X& x,
     const VectorX shape = rule.shape.col(q);
     const Vector3 place = x * shape;
     for (Eigen::Index i = 0; i < shape.size(); ++i) {
-      const auto found = shares.find(nodes[i]);
-      if (found == shares.end()) continue;
+      const auto found = contributions.find(nodes[i]);
+      if (found == contributions.end()) continue;
       found->second.area += area * shape[i];
       found->second.moment += area * shape[i] * place;
     }
@@ -59,11 +60,12 @@ void add_shares(const Quadrature& rule, int dimension, const Matrix3X& x,
 
 template <typename Measure>
 void add_face(const Mesh& mesh, const BoundaryFace& face,
-              const Measure& measure, Shares& shares) {
+              const Measure& measure, Contributions& contributions) {
   const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(face.block)];
-  add_shares(block.element->face_rules[static_cast<std::size_t>(face.face)], 2,
-             element_positions(mesh, block, face.element),
-             block.element_nodes(face.element), measure, shares);
+  add_contributions(
+      block.element->face_rules[static_cast<std::size_t>(face.face)], 2,
+      element_positions(mesh, block, face.element),
+      block.element_nodes(face.element), measure, contributions);
 }
 
 /// int n dA over faces [m^2].
@@ -86,22 +88,22 @@ Vector3 calc_projected_area(const Mesh& mesh,
 }
 
 /// Weights of integrals over the region.
-WeightedNodes normalised(const Mesh& mesh, const Shares& shares) {
+WeightedNodes normalised(const Mesh& mesh, const Contributions& contributions) {
   double total = 0.0;
   double largest = 0.0;
-  for (const auto& [node, share] : shares) {
-    total += share.area;
-    largest = std::max(largest, std::abs(share.area));
+  for (const auto& [node, contribution] : contributions) {
+    total += contribution.area;
+    largest = std::max(largest, std::abs(contribution.area));
   }
   constexpr double kZero = 1e-12;  // corners of second-order triangles
-  const auto count = static_cast<Eigen::Index>(shares.size());
+  const auto count = static_cast<Eigen::Index>(contributions.size());
   WeightedNodes result{{}, VectorX(count), Matrix3X(3, count)};
   Eigen::Index next = 0;
-  for (const auto& [node, share] : shares) {
+  for (const auto& [node, contribution] : contributions) {
     result.nodes.push_back(node);
-    const bool is_zero = std::abs(share.area) <= kZero * largest;
-    result.weights[next] = is_zero ? 0.0 : share.area / total;
-    result.moments.col(next++) = share.moment / total;
+    const bool is_zero = std::abs(contribution.area) <= kZero * largest;
+    result.weights[next] = is_zero ? 0.0 : contribution.area / total;
+    result.moments.col(next++) = contribution.moment / total;
   }
   result.weights /= result.weights.sum();
   const Vector3 mean = mesh.x(Eigen::all, result.nodes) * result.weights;
@@ -113,16 +115,16 @@ WeightedNodes normalised(const Mesh& mesh, const Shares& shares) {
 
 WeightedNodes weigh_group(const Mesh& mesh, const PhysicalGroup& group) {
   if (group.dimension == 0) return weigh_equally(mesh, group.nodes);
-  Shares shares;
-  for (const int node : group.nodes) shares[node] = {};
+  Contributions contributions;
+  for (const int node : group.nodes) contributions[node] = {};
   for (const ElementBlock& block : group.blocks) {
     for (std::size_t e = 0; e < block.size(); ++e) {
-      add_shares(block.element->curved, block.element->dimension,
-                 element_positions(mesh, block, e), block.element_nodes(e),
-                 calc_measure, shares);
+      add_contributions(block.element->curved, block.element->dimension,
+                        element_positions(mesh, block, e),
+                        block.element_nodes(e), calc_measure, contributions);
     }
   }
-  return normalised(mesh, shares);
+  return normalised(mesh, contributions);
 }
 
 WeightedNodes weigh_equally(const Mesh& mesh, std::vector<int> nodes) {
@@ -149,26 +151,27 @@ NearNodes find_boundary_nodes(
 }
 
 WeightedNodes weigh_boundary(const Mesh& mesh, const std::vector<int>& nodes) {
-  Shares shares;
-  for (const int node : nodes) shares[node] = {};
+  Contributions contributions;
+  for (const int node : nodes) contributions[node] = {};
   bool has_face = false;
   for (const BoundaryFace& face : mesh.boundary_faces) {
     const std::vector<int> on_face = face_nodes(mesh, face);
     if (!std::all_of(on_face.begin(), on_face.end(),
-                     [&](int node) { return shares.contains(node); }))
+                     [&](int node) { return contributions.contains(node); }))
       continue;
     has_face = true;
-    add_face(mesh, face, calc_measure, shares);
+    add_face(mesh, face, calc_measure, contributions);
   }
-  return has_face ? normalised(mesh, shares) : weigh_equally(mesh, nodes);
+  return has_face ? normalised(mesh, contributions)
+                  : weigh_equally(mesh, nodes);
 }
 
 WeightedNodes weigh_cut(const Mesh& mesh,
                         const std::vector<BoundaryFace>& faces) {
   const Vector3 along = calc_projected_area(mesh, faces).normalized();
-  Shares shares;
+  Contributions contributions;
   for (const BoundaryFace& face : faces) {
-    for (const int node : face_nodes(mesh, face)) shares[node] = {};
+    for (const int node : face_nodes(mesh, face)) contributions[node] = {};
   }
   for (const BoundaryFace& face : faces) {
     add_face(
@@ -176,9 +179,9 @@ WeightedNodes weigh_cut(const Mesh& mesh,
         [&](const Tangents& tangents) {
           return calc_normal(tangents).dot(along);
         },
-        shares);
+        contributions);
   }
-  WeightedNodes cut = normalised(mesh, shares);
+  WeightedNodes cut = normalised(mesh, contributions);
   cut.moments -= along * (along.transpose() * cut.moments);
   return cut;
 }

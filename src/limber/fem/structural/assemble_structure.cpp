@@ -129,7 +129,8 @@ class StructureAssembler {
     std::vector<char> is_stiff(structure_.tags.size(), 0);
     const auto use = [&](int node, bool stiffens) {
       used_[index(node)] = 1;
-      for (const auto& [root, share] : motions_.find_shares(node)) {
+      for (const auto& [root, contribution] :
+           motions_.find_contributions(node)) {
         used_[index(root)] = 1;
         if (stiffens) is_stiff[index(root)] = 1;
         if (motions_.is_hub(root)) rotates_[index(root)] = 1;
@@ -143,9 +144,9 @@ class StructureAssembler {
       }
     for (const int node : solid_nodes_) use(node, true);
     const auto is_held = [&](int node) {
-      const auto shares = motions_.find_shares(node);
-      return std::ranges::all_of(shares, [&](const auto& share) {
-        return is_stiff[index(share.first)] != 0;
+      const auto contributions = motions_.find_contributions(node);
+      return std::ranges::all_of(contributions, [&](const auto& contribution) {
+        return is_stiff[index(contribution.first)] != 0;
       });
     };
     for (int n = 0; n < static_cast<int>(used_.size()); ++n)
@@ -156,8 +157,9 @@ class StructureAssembler {
             "{}: no beam, shell or solid holds node {}, which has a mass. "
             "Expected an element or a rigid element on it.",
             mass.place, structure_.tags[index(mass.node)]));
-      const bool turns = !mass.offset.isZero(0.0) || !mass.inertia.isZero(0.0);
-      if (turns && !motions_.is_led(mass.node) && !rotates_[index(mass.node)])
+      const bool rotates =
+          !mass.offset.isZero(0.0) || !mass.inertia.isZero(0.0);
+      if (rotates && !motions_.is_led(mass.node) && !rotates_[index(mass.node)])
         throw InputError(fmt::format(
             "{}: a mass with an offset or moments of inertia is at node {}, "
             "which is of solids alone and has no rotation. Expected its mass "
@@ -197,7 +199,7 @@ class StructureAssembler {
     Triplets triplets;
     for (int n = 0; n < static_cast<int>(used_.size()); ++n) {
       if (!used_[index(n)]) continue;
-      for (const auto& [root, S] : motions_.find_shares(n))
+      for (const auto& [root, S] : motions_.find_contributions(n))
         for (int i = 0; i < 6; ++i)
           for (int j = 0; j < (rotates_[index(root)] ? 6 : 3); ++j)
             if (S(i, j) != 0.0)

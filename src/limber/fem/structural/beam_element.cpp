@@ -162,11 +162,11 @@ StructuralElement make_beam(const BeamShape& shape, const BeamSection& given,
       T;
   StructuralElement element;
   element.K = T.transpose() * forces;
-  const Matrix3 turn = given_axes.transpose() * axes;
+  const Matrix3 rotation = given_axes.transpose() * axes;
   element.section_forces.resize(12, 12);
   for (int row = 0; row < 12; row += 3)
     element.section_forces.middleRows<3>(row) =
-        (row < 6 ? -1.0 : 1.0) * turn * forces.middleRows<3>(row);
+        (row < 6 ? -1.0 : 1.0) * rotation * forces.middleRows<3>(row);
 
   // Four points at each place have the section's second moments.
   const double solid = material.density * section.area;

@@ -70,12 +70,12 @@ class StructureDrawer {
     model_.mesh_surface.sides.push_back(side);
     model_.tags.push_back(next_tag_++);
     points_.emplace_back(structure_.x.col(node) + d);
-    const Matrix3 turn = -skew(d);
+    const Matrix3 rotation = -skew(d);
     for (int c = 0; c < 3; ++c) {
       model_.condensed.push_back({drawn, c});
       add_unknown(node, c, 1.0);
       for (int k = 0; k < 3; ++k)
-        if (turn(c, k) != 0.0) add_unknown(node, 3 + k, turn(c, k));
+        if (rotation(c, k) != 0.0) add_unknown(node, 3 + k, rotation(c, k));
     }
     return drawn;
   }

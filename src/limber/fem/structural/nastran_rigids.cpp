@@ -63,9 +63,9 @@ class RigidReader {
     spider.reference = *leader;
     std::size_t field = 3;
     spider.nodes = nodes_.read_list(card_, field);
-    const bool turns = std::ranges::any_of(
+    const bool rotates = std::ranges::any_of(
         spider.nodes, [&](int node) { return turning_.contains(node); });
-    if (card_.field(2) != kSix && (card_.field(2) != kThree || turns))
+    if (card_.field(2) != kSix && (card_.field(2) != kThree || rotates))
       return refuse(
           "CM is not 123456. Expected a node that leads in all six components, "
           "or in 123 nodes of solids alone.");

@@ -41,7 +41,7 @@ NodeMotions::NodeMotions(const Structure& structure)
 
 void NodeMotions::add(int node, Tie tie) {
   Tie& own = ties_[index(node)];
-  if (!own.shares.empty())
+  if (!own.contributions.empty())
     throw InputError(fmt::format(
         "{}: node {} moves with another rigid element already ({}). "
         "Expected it to depend on one.",
@@ -88,7 +88,7 @@ void NodeMotions::add_mean(const Structure& structure,
         skew(Vector3(structure.x.col(mean.nodes[i]) - c));
     S.topLeftCorner<3, 3>() = mean.weights[i] / W * Matrix3::Identity() -
                               arm * S.bottomLeftCorner<3, 3>();
-    tie.shares.emplace_back(mean.nodes[i], S);
+    tie.contributions.emplace_back(mean.nodes[i], S);
   }
   add(mean.node, std::move(tie));
 }
@@ -96,13 +96,13 @@ void NodeMotions::add_mean(const Structure& structure,
 /// In place of leaders that are led in turn those that lead them.
 void NodeMotions::resolve(int node) {
   std::map<int, Matrix6> sum;
-  for (const auto& [leader, S] : ties_[index(node)].shares)
-    for (const auto& [root, R] : find_shares(leader)) {
+  for (const auto& [leader, S] : ties_[index(node)].contributions)
+    for (const auto& [root, R] : find_contributions(leader)) {
       const Matrix6 part = S * R;
       const auto [entry, is_new] = sum.try_emplace(root, part);
       if (!is_new) entry->second += part;
     }
-  ties_[index(node)].shares = {sum.begin(), sum.end()};
+  ties_[index(node)].contributions = {sum.begin(), sum.end()};
 }
 
 /// Of all nodes, those that lead before those that they lead.
@@ -119,13 +119,13 @@ void NodeMotions::resolve() {
     while (!stack.empty()) {
       auto& [node, next] = stack.back();
       const Tie& tie = ties_[index(node)];
-      if (next == tie.shares.size()) {
+      if (next == tie.contributions.size()) {
         resolve(node);
         marks[index(node)] = Mark::done;
         stack.pop_back();
         continue;
       }
-      const int leader = tie.shares[next++].first;
+      const int leader = tie.contributions[next++].first;
       if (marks[index(leader)] == Mark::open)
         throw InputError(
             fmt::format("{}: node {} moves, by a chain of rigid elements, "
@@ -136,9 +136,10 @@ void NodeMotions::resolve() {
   }
 }
 
-std::vector<NodeMotions::Share> NodeMotions::find_shares(int node) const {
+std::vector<NodeMotions::Contribution> NodeMotions::find_contributions(
+    int node) const {
   if (!is_led(node)) return {{node, Matrix6::Identity()}};
-  return ties_[index(node)].shares;
+  return ties_[index(node)].contributions;
 }
 
 }  // namespace limber::fem

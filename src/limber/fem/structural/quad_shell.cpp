@@ -167,9 +167,9 @@ class QuadMaker {
   }
 
   void add_stiffness(const SurfacePoint& at, double r, double s) {
-    const Matrix3 turn = turn_strain(at.J_inv);
-    const Strain membrane = turn * make_membrane(at);
-    const Strain bending = turn * make_bending(at);
+    const Matrix3 rotation = rotate_strain(at.J_inv);
+    const Strain membrane = rotation * make_membrane(at);
+    const Strain bending = rotation * make_bending(at);
     const Strain force = laminate_.A * membrane + laminate_.B * bending;
     const Strain moment = laminate_.B * membrane + laminate_.D * bending;
     K_ +=
@@ -187,7 +187,7 @@ class QuadMaker {
     shapes(2, 2) = r;
     shapes(2, 3) = s;
     const Enhanced E =
-        middle_.area / at.area * turn_strain(middle_.J_inv) * shapes;
+        middle_.area / at.area * rotate_strain(middle_.J_inv) * shapes;
     K_aa_ += at.area * E.transpose() * laminate_.A * E;
     K_qa_ += at.area * force.transpose() * E;
 

@@ -24,19 +24,19 @@ using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Matrix2X = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
 /// From components (xx, yy, zz, xy, yz, xz) in axes to those of the model.
-Matrix6 turn_components(const Matrix3& axes) {
+Matrix6 rotate_components(const Matrix3& axes) {
   constexpr std::array<std::array<int, 2>, 6> kPlaces = {
       {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-  Matrix6 turn;
+  Matrix6 rotation;
   for (int k = 0; k < 6; ++k) {
     const auto [a, b] = kPlaces[index(k)];
     Matrix3 unit = Matrix3::Zero();
     unit(a, b) = unit(b, a) = 1.0;
-    const Matrix3 turned = axes * unit * axes.transpose();
+    const Matrix3 rotated = axes * unit * axes.transpose();
     for (int i = 0; i < 6; ++i)
-      turn(i, k) = turned(kPlaces[index(i)][0], kPlaces[index(i)][1]);
+      rotation(i, k) = rotated(kPlaces[index(i)][0], kPlaces[index(i)][1]);
   }
-  return turn;
+  return rotation;
 }
 
 bool is_isotropic(const Laminate& laminate) {
@@ -70,7 +70,7 @@ struct CornerGroup {
 };
 
 /// A sample's part of the strains at a node.
-struct Share {
+struct Contribution {
   std::size_t shell = 0;
   std::size_t sample = 0;
   double weight = 0.0;
@@ -78,10 +78,10 @@ struct Share {
 
 /// Of strains in a shell's axes to those that R turns them to. @param R axes in
 /// the others
-Matrix8 turn_strains(const Matrix3& R) {
+Matrix8 rotate_strains(const Matrix3& R) {
   Matrix8 T = Matrix8::Zero();
   T.topLeftCorner<3, 3>() = T.block<3, 3>(3, 3) =
-      turn_strain(R.topLeftCorner<2, 2>());
+      rotate_strain(R.topLeftCorner<2, 2>());
   T.bottomRightCorner<2, 2>() = R.topLeftCorner<2, 2>();
   return T;
 }
@@ -155,7 +155,7 @@ class StressRecovery {
     const MatrixX both =
         find_motions(make_element(structure_, beam).section_forces, nodes);
     const Matrix3 axes = find_axes(structure_, beam);
-    const Matrix6 turn = turn_components(axes);
+    const Matrix6 rotation = rotate_components(axes);
     if (section.points.empty()) ++result_.bare_beams;
     for (std::size_t end = 0; end < 2; ++end) {
       const int node = model_.places[index(nodes[end])];
@@ -166,7 +166,7 @@ class StressRecovery {
       std::array<int, 2> numbers = {0, 0};  // on the outline, inside of it
       for (std::size_t k = 0; k < section.points.size(); ++k) {
         const SectionPoint& at = section.points[k];
-        stress_.emplace_back(turn * calc_beam_stress(section, at) *
+        stress_.emplace_back(rotation * calc_beam_stress(section, at) *
                              forces_.back());
         result_.points.push_back(
             {node, k < corners.size() ? corners[k] : node,
@@ -178,8 +178,8 @@ class StressRecovery {
   }
 
   // ---- shells
-  /// Of an element, turned to a normal.
-  static Matrix3 turn_axes(const Matrix3& axes, const Vector3& normal) {
+  /// Of an element, rotated to a normal.
+  static Matrix3 rotate_axes(const Matrix3& axes, const Vector3& normal) {
     return Eigen::Quaterniond::FromTwoVectors(Vector3(axes.col(2)), normal)
                .toRotationMatrix() *
            axes;
@@ -219,7 +219,7 @@ class StressRecovery {
       for (std::size_t i = 0; i < shell.nodes.size(); ++i) {
         const int face = model_.drawn.corners[s][i];
         const Vector3 normal = model_.drawn.faces[index(face)].sum.normalized();
-        const Vector3 fibre = turn_axes(element.axes[i], normal).col(0);
+        const Vector3 fibre = rotate_axes(element.axes[i], normal).col(0);
         std::vector<int>& known = of_face[index(face)];
         const auto found = std::ranges::find_if(known, [&](int g) {
           return is_same_section(groups_[index(g)], shell, fibre);
@@ -241,17 +241,18 @@ class StressRecovery {
 
   /// Of nodes without triangles the mean of the elements' own; else by patches:
   /// around the node, of one at an edge around its neighbours inside.
-  [[nodiscard]] std::vector<Share> list_shares(const CornerGroup& group) const {
-    std::vector<Share> shares;
+  [[nodiscard]] std::vector<Contribution> list_contributions(
+      const CornerGroup& group) const {
+    std::vector<Contribution> contributions;
     if (!group.has_triangles) {
       const double weight = 1.0 / static_cast<double>(group.shells.size());
       for (std::size_t k = 0; k < group.shells.size(); ++k)
-        shares.push_back({group.shells[k], group.corners[k], weight});
-      return shares;
+        contributions.push_back({group.shells[k], group.corners[k], weight});
+      return contributions;
     }
     if (is_inside(group)) {
-      add_fit(group, group.shells, 1.0, shares);
-      return shares;
+      add_fit(group, group.shells, 1.0, contributions);
+      return contributions;
     }
     std::set<int> neighbours;
     std::set<std::size_t> around;
@@ -263,16 +264,16 @@ class StressRecovery {
       }
     for (const int g : neighbours)
       add_fit(group, groups_[index(g)].shells,
-              1.0 / static_cast<double>(neighbours.size()), shares);
+              1.0 / static_cast<double>(neighbours.size()), contributions);
     if (neighbours.empty())
-      add_fit(group, {around.begin(), around.end()}, 1.0, shares);
-    return shares;
+      add_fit(group, {around.begin(), around.end()}, 1.0, contributions);
+    return contributions;
   }
 
   /// The value at a group's node of the polynomial through the middles of a
   /// patch of shells, times a factor.
   void add_fit(const CornerGroup& group, const std::vector<std::size_t>& patch,
-               double factor, std::vector<Share>& shares) const {
+               double factor, std::vector<Contribution>& contributions) const {
     const Vector3 normal = normal_of(group);
     const Vector3 node =
         structure_.x.col(model_.drawn.faces[index(group.face)].node);
@@ -287,9 +288,10 @@ class StressRecovery {
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::size_t samples = shells_[patch[i]].strains.size();
       for (std::size_t k = 0; k < samples; ++k)
-        shares.push_back({patch[i], k,
-                          factor * weights[static_cast<Eigen::Index>(i)] /
-                              static_cast<double>(samples)});
+        contributions.push_back(
+            {patch[i], k,
+             factor * weights[static_cast<Eigen::Index>(i)] /
+                 static_cast<double>(samples)});
     }
   }
 
@@ -313,7 +315,7 @@ class StressRecovery {
     for (std::size_t k = 0; k < group.shells.size(); ++k) {
       const std::vector<Matrix3>& axes = shells_[group.shells[k]].axes;
       sum +=
-          turn_axes(axes[std::min(group.corners[k], axes.size() - 1)], normal)
+          rotate_axes(axes[std::min(group.corners[k], axes.size() - 1)], normal)
               .col(0);
     }
     Matrix3 axes;
@@ -328,16 +330,17 @@ class StressRecovery {
     const StructureShell& shell = structure_.shells[group.shells[0]];
     const Matrix3 own = find_axes_of(group);
     MatrixX strains = MatrixX::Zero(8, motions_.cols());
-    for (const auto& [s, sample, weight] : list_shares(group))
-      strains += weight *
-                 turn_strains(own.transpose() *
-                              turn_axes(shells_[s].axes[sample], own.col(2))) *
-                 shells_[s].strains[sample];
+    for (const auto& [s, sample, weight] : list_contributions(group))
+      strains +=
+          weight *
+          rotate_strains(own.transpose() *
+                         rotate_axes(shells_[s].axes[sample], own.col(2))) *
+          shells_[s].strains[sample];
     const Laminate laminate = find_laminate(structure_, shell);
     const int node = model_.places[index(face.node)];
-    const Matrix6 turn = turn_components(own);
+    const Matrix6 rotation = rotate_components(own);
     for (const LaminatePoint& point : laminate.points) {
-      stress_.emplace_back(turn * calc_stress(strains, point, laminate.S));
+      stress_.emplace_back(rotation * calc_stress(strains, point, laminate.S));
       Matrix3 axes = own;
       axes.leftCols<2>() = Eigen::AngleAxisd(point.angle, Vector3(own.col(2)))
                                .toRotationMatrix() *

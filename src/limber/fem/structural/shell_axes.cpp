@@ -22,7 +22,7 @@ Matrix3 make_surface_axes(const Vector3& normal, const Vector3& axis) {
   return axes;
 }
 
-Matrix3 turn_strain(const Matrix2& R) {
+Matrix3 rotate_strain(const Matrix2& R) {
   const double a = R(0, 0);
   const double b = R(0, 1);
   const double c = R(1, 0);

@@ -15,7 +15,7 @@ namespace limber::fem {
 
 /// Strains [11, 22, 2 12] of directions from those [rr, ss, 2 rs] of others.
 /// @param R of the slopes along 1, 2 by those along r, s
-[[nodiscard]] Matrix3 turn_strain(const Matrix2& R);
+[[nodiscard]] Matrix3 rotate_strain(const Matrix2& R);
 
 /// Two places through the thickness with the laminate's mass and moments of
 /// it: z of both, each with half of the mass.

@@ -227,10 +227,11 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
   K(kInPlane, kInPlane) += make_higher_membrane(t, laminate.A);
   K(kOutOfPlane, kOutOfPlane) += K_plate;
 
-  MatrixX turn = MatrixX::Zero(18, 18);
-  for (int i = 0; i < 6; ++i) turn.block<3, 3>(3 * i, 3 * i) = axes.transpose();
+  MatrixX rotation = MatrixX::Zero(18, 18);
+  for (int i = 0; i < 6; ++i)
+    rotation.block<3, 3>(3 * i, 3 * i) = axes.transpose();
   StructuralElement element;
-  element.K = turn.transpose() * K * turn;
+  element.K = rotation.transpose() * K * rotation;
   for (int i = 0; i < 3; ++i) {
     const Vector3 N = Vector3::Unit(i);
     MatrixX strains = MatrixX::Zero(8, 18);
@@ -240,7 +241,7 @@ StructuralElement make_triangle_shell(const ShellShape& shape,
         -C * (curvature - mean_curvature);
     strains.middleRows<3>(3)(Eigen::all, kOutOfPlane) = curvature;
     strains.bottomRows<2>()(Eigen::all, kOutOfPlane) = plate.make_shear(N);
-    element.strains.emplace_back(strains * turn);
+    element.strains.emplace_back(strains * rotation);
     element.axes.push_back(axes);
   }
   const Matrix3X normals = axes.col(2).replicate<1, 3>();

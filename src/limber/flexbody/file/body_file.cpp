@@ -117,7 +117,7 @@ void write_groups(Hdf5File& out, const ReducedBody& body) {
               "0 point, 1 curve, 2 surface, 3 volume");
     out.write(at + "tags", to_integers(group.tags), "1", "Gmsh node tags");
     out.write(at + "weights", MatrixX(group.weights), "1",
-              "share of a uniform load, sum 1");
+              "fraction of a uniform load, sum 1");
   }
 }
 

@@ -86,8 +86,9 @@ void write_slices(Hdf5File& out, const std::string& at,
               "displacement of the centre and rotation by modes, 6 x m");
     out.write(of_slice + "flexibility_B", MatrixX(slice.flexibility_B), "m/N",
               "flexibility that 'motion_B' does not have, 3 x 3");
-    out.write(of_slice + "own_B", MatrixX(slice.own_B), "m/N",
-              "share of it by which the modes deform the slice itself, 3 x 3");
+    out.write(
+        of_slice + "own_B", MatrixX(slice.own_B), "m/N",
+        "fraction of it by which the modes deform the slice itself, 3 x 3");
   }
 }
 

@@ -45,9 +45,9 @@ void write_selection(Hdf5File& out,
             std::vector<std::int64_t>{selection ? 1 : 0}, "1",
             "1 if eigenmodes were chosen by load cases");
   out.write("selection/measure", std::string(to_string(record.measure)),
-            "what shares are of");
+            "what fractions are of");
   out.write("selection/threshold", MatrixX::Constant(1, 1, record.threshold),
-            "1", "share to reach");
+            "1", "fraction to reach");
   out.write("selection/candidates",
             std::vector<std::int64_t>{record.candidates}, "1",
             "eigenmodes to choose from");
@@ -57,7 +57,7 @@ void write_selection(Hdf5File& out,
   out.write("selection/case_names", names, "load cases, one a line");
   out.write(
       "selection/case_figures", figures, "1",
-      "a case a row: share reached, static error by eigenmodes, by basis");
+      "a case a row: fraction reached, static error by eigenmodes, by basis");
   out.write("selection/case_mode_counts", requested_counts, "1",
             "eigenmodes that each case asks for");
   out.write("selection/case_modes", requested, "1",
@@ -114,7 +114,7 @@ void write_load_modes(Hdf5File& out,
   out.write("load_modes/counts", counts, "1",
             "three a file: directions found, 1 if that is all, modes taken");
   out.write("load_modes/left_out", left_out, "1",
-            "share of the static answers that is in no mode");
+            "fraction of the static answers that is in no mode");
 }
 
 void write_field(Hdf5File& out, const std::string& at,

@@ -82,16 +82,18 @@ double find_impact_limit(const AutomaticModes& options,
 }
 
 // Up to the first that is above, so that the basis reaches the limit.
-void add_modes_to(double limit, const VectorX& lambda, const CaseShares& shares,
+void add_modes_to(double limit, const VectorX& lambda,
+                  const CaseContributions& contributions,
                   ModeSelection& selection) {
   for (int k = 0; k < lambda.size(); ++k) {
     std::vector<int>& modes = selection.modes;
     if (!(limit > 0.0) || (k > 0 && lambda[k - 1] > limit)) break;
     if (std::binary_search(modes.begin(), modes.end(), k)) continue;
     modes.insert(std::lower_bound(modes.begin(), modes.end(), k), k);
-    for (Eigen::Index c = 0; c < shares.totals.size(); ++c) {
-      if (shares.totals[c] == 0.0) continue;
-      selection.reached[c] += shares.shares(k, c) / shares.totals[c];
+    for (Eigen::Index c = 0; c < contributions.totals.size(); ++c) {
+      if (contributions.totals[c] == 0.0) continue;
+      selection.reached[c] +=
+          contributions.by_mode(k, c) / contributions.totals[c];
     }
   }
 }
@@ -141,9 +143,11 @@ Participation calc_base_participation(const ElasticBody& body,
                                  body.support.translations);
 }
 
-CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
-                       const LoadCases& cases, const ElasticBody& body,
-                       const Progress& progress) {
+CaseContributions find_contributions(ModeMeasure measure,
+                                     const fem::Eigenmodes& modes,
+                                     const LoadCases& cases,
+                                     const ElasticBody& body,
+                                     const Progress& progress) {
   switch (measure) {
     case ModeMeasure::report:
       return {
@@ -175,12 +179,12 @@ ChosenModes choose_eigenmodes(const ElasticBody& body, const Recipe& recipe,
   chosen.cases = find_load_cases(body, recipe, options.measure);
   const fem::Eigenmodes candidates = fem::find_eigenmodes(
       inverse, std::min(options.candidates, count_elastic(inverse)), progress);
-  const CaseShares shares =
-      find_shares(options.measure, candidates, chosen.cases, body, progress);
-  ModeSelection selection =
-      select_modes(shares.shares, shares.totals, {options.threshold});
-  add_modes_to(find_impact_limit(options, body), candidates.lambda, shares,
-               selection);
+  const CaseContributions contributions = find_contributions(
+      options.measure, candidates, chosen.cases, body, progress);
+  ModeSelection selection = select_modes(
+      contributions.by_mode, contributions.totals, {options.threshold});
+  add_modes_to(find_impact_limit(options, body), candidates.lambda,
+               contributions, selection);
   chosen.record = make_record(options, selection, candidates, chosen.cases);
   chosen.eigenmodes = {candidates.lambda(selection.modes),
                        candidates.Phi(Eigen::all, selection.modes)};

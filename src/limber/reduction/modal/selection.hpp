@@ -33,19 +33,19 @@ void check_basis(const Recipe& recipe);
 [[nodiscard]] Participation calc_base_participation(
     const ElasticBody& body, const fem::Eigenmodes& modes);
 
-/// Share of every mode in every load case, in the unit of the measure:
+/// Contribution of every mode to every load case, in the unit of the measure:
 /// compliance [J], report [kg^1/2 N s^2], mass [kg].
-struct CaseShares {
-  MatrixX shares;  ///< m x k [as the measure]
-  VectorX totals;  ///< k, of all modes of the mesh [as the measure]
+struct CaseContributions {
+  MatrixX by_mode;  ///< m x k [as the measure]
+  VectorX totals;   ///< k, of all modes of the mesh [as the measure]
 };
 
 /// The report's measure needs a body for which all modes can be found.
-[[nodiscard]] CaseShares find_shares(ModeMeasure measure,
-                                     const fem::Eigenmodes& modes,
-                                     const LoadCases& cases,
-                                     const ElasticBody& body,
-                                     const Progress& progress);
+[[nodiscard]] CaseContributions find_contributions(ModeMeasure measure,
+                                                   const fem::Eigenmodes& modes,
+                                                   const LoadCases& cases,
+                                                   const ElasticBody& body,
+                                                   const Progress& progress);
 
 struct ChosenModes {
   fem::Eigenmodes eigenmodes;

@@ -10,7 +10,7 @@
 namespace limber::flexbody {
 namespace {
 
-using Matrix63 = SliceMotion::Share;
+using Matrix63 = SliceMotion::Contribution;
 
 // Of the motion that moves the faces most; what facets of a round rod have of
 // its axis is less, the end face of a slender one more [-].
@@ -74,16 +74,16 @@ SliceMotion::SliceMotion(const std::vector<const SurfaceSample*>& samples) {
 
 MatrixX SliceMotion::find_motion(const MatrixX& Phi) const {
   MatrixX motion = MatrixX::Zero(6, Phi.cols());
-  for (const auto& [node, share] : nodes_) {
-    motion += share * Phi.middleRows<3>(3 * node);
+  for (const auto& [node, contribution] : nodes_) {
+    motion += contribution * Phi.middleRows<3>(3 * node);
   }
   return motion;
 }
 
 MatrixX SliceMotion::find_loads(Eigen::Index nodes) const {
   MatrixX loads = MatrixX::Zero(3 * nodes, 3);
-  for (const auto& [node, share] : nodes_) {
-    loads.middleRows<3>(3 * node) = share.topRows<3>().transpose();
+  for (const auto& [node, contribution] : nodes_) {
+    loads.middleRows<3>(3 * node) = contribution.topRows<3>().transpose();
   }
   return loads;
 }

@@ -24,7 +24,7 @@ namespace limber::flexbody {
 class SliceMotion {
  public:
   /// (u, theta) by a node's displacement.
-  using Share = Eigen::Matrix<double, 6, 3>;
+  using Contribution = Eigen::Matrix<double, 6, 3>;
 
   /// @param samples at least one
   explicit SliceMotion(const std::vector<const SurfaceSample*>& samples);
@@ -32,7 +32,9 @@ class SliceMotion {
   /// Of its area, mesh frame [m].
   [[nodiscard]] const Vector3& centre() const { return centre_; }
   /// Of each node of the mesh that it has.
-  [[nodiscard]] const std::map<int, Share>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::map<int, Contribution>& nodes() const {
+    return nodes_;
+  }
   /// (u, theta) of each mode, 6 x m. @param Phi 3N x m rows of all nodes
   [[nodiscard]] MatrixX find_motion(const MatrixX& Phi) const;
   /// Loads of unit forces along each axis, 3N x 3. @param nodes N
@@ -40,7 +42,7 @@ class SliceMotion {
 
  private:
   Vector3 centre_ = Vector3::Zero();
-  std::map<int, Share> nodes_;
+  std::map<int, Contribution> nodes_;
 };
 
 }  // namespace limber::flexbody

@@ -62,8 +62,8 @@ joints::SignalValue find_most(const joints::Signal& signal,
 }
 
 // Largest angular speed that a drive commands; 0 for a translation.
-double find_turn(const DriveSpec& drive, joints::JointKind kind,
-                 const Scenario& scenario) {
+double find_angular_speed(const DriveSpec& drive, joints::JointKind kind,
+                          const Scenario& scenario) {
   const auto coordinates =
       joints::find_coordinates(kind, Vector3::UnitZ(), Vector3::UnitX());
   const auto i = index(drive.coordinate - 1);
@@ -170,7 +170,7 @@ double CarriedLoads::find_speed(int tree) const {
     speed = driven[index(joint.parent)];
     for (const DriveSpec& drive : scene_.scenario.drives) {
       if (drive.joint == joint.name)
-        speed += find_turn(drive, joint.kind, scene_.scenario);
+        speed += find_angular_speed(drive, joint.kind, scene_.scenario);
     }
     largest = std::max(largest, speed);
   }
@@ -178,7 +178,8 @@ double CarriedLoads::find_speed(int tree) const {
     if (!is_in(loop, tree)) continue;
     for (const DriveSpec& drive : scene_.scenario.drives) {
       if (drive.joint != loop.name) continue;
-      largest = std::max(largest, find_turn(drive, loop.kind, scene_.scenario));
+      largest = std::max(largest,
+                         find_angular_speed(drive, loop.kind, scene_.scenario));
     }
   }
   return largest;
