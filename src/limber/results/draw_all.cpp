@@ -15,6 +15,11 @@ namespace {
 constexpr std::size_t kMostAtATime = 4;
 constexpr std::size_t kMostTogether = 16;  // charts of one process
 
+std::size_t count_threads() {
+  return std::clamp(std::size_t{std::thread::hardware_concurrency()},
+                    std::size_t{1}, kMostAtATime);
+}
+
 // Results of all pictures, drawn by threads that take one after the other.
 class Drawing {
  public:
@@ -60,8 +65,13 @@ class Drawing {
 
 void add_charts(std::vector<GnuplotScript> charts,
                 std::vector<Picture>& pictures) {
-  for (std::size_t first = 0; first < charts.size(); first += kMostTogether) {
-    const std::size_t last = std::min(first + kMostTogether, charts.size());
+  // Two processes a thread, so that none draws long after the others.
+  const std::size_t processes = 2 * count_threads();
+  const std::size_t together =
+      std::clamp((charts.size() + processes - 1) / processes, std::size_t{1},
+                 kMostTogether);
+  for (std::size_t first = 0; first < charts.size(); first += together) {
+    const std::size_t last = std::min(first + together, charts.size());
     const auto from = [&](std::size_t i) {
       return std::make_move_iterator(charts.begin() +
                                      static_cast<std::ptrdiff_t>(i));
@@ -74,9 +84,7 @@ void add_charts(std::vector<GnuplotScript> charts,
 
 std::vector<std::string> draw_all(const std::vector<Picture>& pictures) {
   Drawing drawing(pictures);
-  const std::size_t count =
-      std::min({pictures.size(), kMostAtATime,
-                std::size_t{std::thread::hardware_concurrency()}});
+  const std::size_t count = std::min(pictures.size(), count_threads());
   std::vector<std::thread> helpers;
   try {
     while (helpers.size() + 1 < count) {

@@ -101,8 +101,8 @@ class Derivatives {
     const Vector3& w = state_.bodies[b].w_WB_B;
     out_.M.block<3, 3>(p, p).diagonal().setConstant(body.mass);
     out_.M.block<3, 3>(p + 3, p + 3) = t.J;
-    out_.M.block(p + 3, m, 3, body.modes) = t.H;
-    out_.M.block(m, p + 3, body.modes, 3) = t.H.transpose();
+    out_.M.block(p + 3, m, 3, body.modes) = t.H();
+    out_.M.block(m, p + 3, body.modes, 3) = t.H().transpose();
     out_.D.block<3, 3>(p + 3, p + 3) = skew(w) * t.J - skew(t.J * w);
   }
 

@@ -90,7 +90,7 @@ BodyMomentum ModalBody::find_momentum(const SystemState& state,
   sum.momentum = body_.mass * rigid.v_WB_W;
   sum.force = t.force_W;
   sum.kinetic += 0.5 * sum.momentum.dot(rigid.v_WB_W) +
-                 w.dot(0.5 * (t.J * w) + t.H * etadot);
+                 w.dot(0.5 * (t.J * w) + t.H() * etadot);
   return sum;
 }
 

@@ -29,12 +29,12 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
 ModalFactor::ModalFactor(const BodyModel& body)
     : coupling_(Matrix3X::Zero(3, body.modes)),
       back_coupling_(Matrix3X::Zero(3, body.modes)) {
+  answer_.setZero(body.modes, 3);
   if (!has_dense_modes(body)) {
     inverse_modes_ = VectorX::Zero(body.modes);
     return;
   }
   coupled_modes_.emplace(body.modes);
-  answer_.setZero(body.modes, 3);
   diagonal_ = VectorX::Zero(body.modes);
 }
 
@@ -77,20 +77,15 @@ bool ModalFactor::update(const SystemModel& model, std::size_t b,
   // The step's rotation changes by T times the increments at its end.
   const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
   rotation_ = (c.acceleration * terms.J + c.velocity * gyroscopic) * T;
+  for (int k = 0; k < body.modes; ++k) {
+    coupling_.col(k) = c.acceleration * terms.H().col(k);
+    back_coupling_.col(k) = T.transpose() * coupling_.col(k);
+  }
+  answer_ = back_coupling_.transpose();
+  for (int i = 0; i < 3; ++i) solve_modes(answer_.col(i));
   Matrix3 schur = rotation_;
   for (int k = 0; k < body.modes; ++k) {
-    const Vector3 column = c.acceleration * terms.H.col(k);
-    const Vector3 row = T.transpose() * column;
-    coupling_.col(k) = column;
-    back_coupling_.col(k) = row;
-    if (!coupled_modes_) schur -= inverse_modes_[k] * column * row.transpose();
-  }
-  if (coupled_modes_) {
-    answer_ = back_coupling_.transpose();
-    for (int i = 0; i < 3; ++i) coupled_modes_->solve(answer_.col(i));
-    for (int k = 0; k < body.modes; ++k) {
-      schur -= coupling_.col(k) * answer_.row(k);
-    }
+    schur -= coupling_.col(k) * answer_.row(k);
   }
   inverse_rotation_ = schur.inverse();
   if (!inverse_rotation_.allFinite()) {
@@ -113,37 +108,25 @@ void ModalFactor::calc_rows(const SystemModel& model, std::size_t /*b*/,
   calc_modal_jacobian(model.attachments[i], terms.attachments[i], R_FW, end.G);
 }
 
-void ModalFactor::solve_coupled(double* x) {
+// x := modal block^-1 x.
+void ModalFactor::solve_modes(Eigen::Ref<VectorX> x) {
+  if (coupled_modes_) {
+    coupled_modes_->solve(x);
+  } else {
+    x.array() *= inverse_modes_.array();
+  }
+}
+
+void ModalFactor::solve(double* x) {
   Eigen::Map<Vector3> translation(x);
   Eigen::Map<Vector3> rotation(x + 3);
   Eigen::Map<VectorX> modes(x + 6, coupling_.cols());
   translation *= inverse_mass_;
-  coupled_modes_->solve(modes);
-  const Vector3 right = rotation - coupling_ * modes;
-  const Vector3 turned = inverse_rotation_ * right;
+  solve_modes(modes);
+  const Vector3 turned =
+      inverse_rotation_ * (rotation - combine(coupling_, modes.data()));
   rotation = turned;
-  modes.noalias() -= answer_ * turned;
-}
-
-void ModalFactor::solve(double* x) {
-  if (coupled_modes_) {
-    solve_coupled(x);
-    return;
-  }
-  Eigen::Map<Vector3> translation(x);
-  Eigen::Map<Vector3> rotation(x + 3);
-  double* modes = x + 6;
-  translation *= inverse_mass_;
-  Vector3 right = rotation;
-  for (Eigen::Index k = 0; k < inverse_modes_.size(); ++k) {
-    modes[k] *= inverse_modes_[k];
-    right -= coupling_.col(k) * modes[k];
-  }
-  rotation = inverse_rotation_ * right;
-  const Vector3 turned = rotation;
-  for (Eigen::Index k = 0; k < inverse_modes_.size(); ++k) {
-    modes[k] -= inverse_modes_[k] * back_coupling_.col(k).dot(turned);
-  }
+  modes -= answer_.lazyProduct(turned);
 }
 
 void ModalFactor::solve_coupled_rows(const Matrix6X& G,

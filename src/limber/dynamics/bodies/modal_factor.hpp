@@ -65,7 +65,7 @@ class ModalFactor {
   void update_modes(const BodyModel& body, const BodyTerms& terms,
                     const TangentCoefficients& c);
   void solve(double* x);
-  void solve_coupled(double* x);
+  void solve_modes(Eigen::Ref<VectorX> x);
   void solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const;
   [[nodiscard]] Matrix6 modal_block(int row, int column) const;
 
@@ -77,7 +77,7 @@ class ModalFactor {
   VectorX inverse_modes_;  // of a diagonal modal block, else none
   std::optional<CoupledModes> coupled_modes_;  // of a dense one
   VectorX diagonal_;                           // c + v zeta of that
-  /// Dense block^-1 (c H' T): m x 3, else none.
+  /// Modal block^-1 (c H' T): m x 3.
   Eigen::Matrix<double, Eigen::Dynamic, 3> answer_;
 };
 

@@ -181,7 +181,8 @@ void NodalFactor::renew_end(const SystemModel& model, std::size_t b,
   const std::size_t f = index_of_full(model, b);
   const auto i = index(end.attachment);
   Matrix6X motion(6, end.G.cols());
-  calc_nodal_jacobian(*model.attachments[i].nodal, terms.attachments[i].nodal,
+  calc_nodal_jacobian(*model.attachments[i].nodal,
+                      terms.nodal_frame(terms.attachments[i]),
                       R_HB_.transpose(), motion);
   for (Eigen::Index n = 0; n < motion.cols(); n += 3) {
     motion.middleCols<3>(n) = (motion.middleCols<3>(n) * R_HB_).eval();
@@ -196,8 +197,9 @@ void NodalFactor::calc_rows(const SystemModel& model, std::size_t b,
                             const Matrix3& R_FW, LinkEnd& end) const {
   const auto i = index(end.attachment);
   const Matrix3& R_WH = state.X_WH[index_of_full(model, b)].R;
-  calc_nodal_jacobian(*model.attachments[i].nodal, terms.attachments[i].nodal,
-                      R_FW * R_WH, end.G);
+  calc_nodal_jacobian(*model.attachments[i].nodal,
+                      terms.nodal_frame(terms.attachments[i]), R_FW * R_WH,
+                      end.G);
 }
 
 void NodalFactor::rotate_answers(const SystemModel& model, std::size_t b,

@@ -35,7 +35,7 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
 
     balance.kinetic_modal += 0.5 * etadot.squaredNorm();
     if (!body.has_rigid_motion()) continue;
-    const Vector3 h = t.H * etadot;
+    const Vector3 h = t.H() * etadot;
     const Vector3 spin_B = t.J * rigid.w_WB_B + h;
     balance.kinetic_modal += rigid.w_WB_B.dot(h);
     balance.kinetic_rigid += 0.5 * body.mass * rigid.v_WB_W.squaredNorm() +

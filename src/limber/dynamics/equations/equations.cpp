@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/equations/equations.hpp"
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
 #include "limber/dynamics/equations/maxwell.hpp"
@@ -51,8 +52,6 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
       {body.inertia->columns.data(), static_cast<std::size_t>(body.modes)},
       state.eta.data() + body.offset, state.etadot.data() + body.offset,
       w.data(), w_squared.data(), terms.by_mode.data(), terms.bias_e.data());
-  terms.H.noalias() =
-      terms.by_mode.middleCols<3>(6).topRows(body.modes).transpose();
   const Vector6 J = Eigen::Map<const Vector6>(sums.J.data());
   const Vector6 Jdot = Eigen::Map<const Vector6>(sums.Jdot.data());
   const Vector3 h = Eigen::Map<const Vector3>(sums.h.data());  // H etadot
@@ -238,11 +237,9 @@ SystemTerms make_terms(const SystemModel& model) {
   SystemTerms terms;
   for (const BodyModel& body : model.bodies) {
     const int m = body.modes;
-    const bool coupled = is_coupled(body.fidelity);
     BodyTerms t;
     t.R_WB.setIdentity();
     t.J = body.J0;
-    t.H = Matrix3X::Zero(3, m);
     t.bias_r.setZero();
     t.bias_e = VectorX::Zero(m);
     t.force_W.setZero();
@@ -253,7 +250,7 @@ SystemTerms make_terms(const SystemModel& model) {
     }
     const auto padded =
         static_cast<Eigen::Index>(kernels::pad(static_cast<std::size_t>(m)));
-    t.by_mode.setZero(coupled ? padded : 0, 12);
+    t.by_mode.setZero(padded, 12);
     terms.bodies.push_back(std::move(t));
     terms.products.push_back(
         make_product_terms(model, BodyIndex(terms.products.size())));
@@ -268,6 +265,10 @@ SystemTerms make_terms(const SystemModel& model) {
   }
   terms.attachments.resize(model.attachments.size());
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    if (model.attachments[i].nodal) {
+      terms.attachments[i].nodal = static_cast<int>(terms.nodal_frames.size());
+      terms.nodal_frames.emplace_back();
+    }
     if (!model.attachments[i].second) continue;
     terms.attachments[i].Phi_B = model.attachments[i].Phi_B;
     terms.attachments[i].Psi_B = model.attachments[i].Psi_B;
@@ -314,7 +315,8 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
             .R_WB;
     AttachmentMotion& motion = terms.attachments[i];
     if (a.nodal) {
-      calc_nodal_attachment(model, a, state, motion);
+      calc_nodal_attachment(model, a, state,
+                            terms.nodal_frames[index(motion.nodal)], motion);
     } else {
       calc_attachment_motion(model, a, state, R_WB, motion);
     }
@@ -352,13 +354,13 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
     Matrix3 schur = t.J;
     Vector3 right = t.moment_B - t.bias_r;
     for (int k = 0; k < body.modes; ++k) {
-      const Vector3 H = t.H.col(k);
+      const Vector3 H = t.H().col(k);
       schur -= H * H.transpose();
       right -= H * etaddot[k];
     }
     const Vector3 dw = schur.inverse() * right;
     rotation_rows(body, accelerations) = dw;
-    for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H.col(k).dot(dw);
+    for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H().col(k).dot(dw);
   }
   solve_full_accelerations(model, terms, accelerations);
 }
@@ -379,12 +381,12 @@ void calc_residual(const SystemModel& model, const VectorX& acceleration,
           body.mass * translation_rows(body, acceleration) - t.force_W;
       rotation = t.J * dw + t.bias_r - t.moment_B;
     }
-    const double* etaddot = acceleration.data() + body.row + 6;
-    for (int k = 0; k < body.modes; ++k) {
-      rotation += t.H.col(k) * etaddot[k];
-      r[6 + k] =
-          etaddot[k] + t.H.col(k).dot(dw) + t.bias_e[k] - t.modal_force[k];
-    }
+    const auto etaddot = mode_rows(body, acceleration);
+    const auto H = t.by_mode.middleCols<3>(6).topRows(body.modes);
+    for (int i = 0; i < 3; ++i) rotation[i] += H.col(i).dot(etaddot);
+    mode_rows(body, residual) = etaddot + t.bias_e - t.modal_force +
+                                H.col(0) * dw[0] + H.col(1) * dw[1] +
+                                H.col(2) * dw[2];
     if (body.clamped) rotation.setZero();
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {

@@ -75,9 +75,10 @@ void add_full_wrench(const SystemModel& model, const Attachment& attachment,
                      const AttachmentMotion& motion, const Vector3& force_W,
                      const Vector3& moment_W, SystemTerms& terms) {
   const auto f = index(model.bodies[index(attachment.body)].full);
-  const Matrix3 R_HW = motion.nodal.R_HB * motion.R_WB.transpose();
-  add_nodal_wrench(*attachment.nodal, motion.nodal, R_HW * force_W,
-                   R_HW * moment_W, terms.full[f].force);
+  const NodalFrameMotion& nodal = terms.nodal_frame(motion);
+  const Matrix3 R_HW = nodal.R_HB * motion.R_WB.transpose();
+  add_nodal_wrench(*attachment.nodal, nodal, R_HW * force_W, R_HW * moment_W,
+                   terms.full[f].force);
 }
 
 void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,

@@ -75,20 +75,21 @@ void calc_attachment_motion(const SystemModel& model,
 
 void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
-                           const SystemState& state, AttachmentMotion& motion) {
+                           const SystemState& state, NodalFrameMotion& nodal,
+                           AttachmentMotion& motion) {
   const auto b = static_cast<std::size_t>(attachment.body);
   const auto f = static_cast<std::size_t>(model.bodies[b].full);
   const FullModel& full = model.full_bodies[f];
   calc_nodal_frame(*attachment.nodal, nodes_of(full, state.u_H),
-                   nodes_of(full, state.udot_H), motion.nodal);
+                   nodes_of(full, state.udot_H), nodal);
   const Pose& X_WH = state.X_WH[f];
-  motion.R_WB = X_WH.R * motion.nodal.R_HB;
-  motion.R_WF = X_WH.R * motion.nodal.R_HB * attachment.R_BF;
+  motion.R_WB = X_WH.R * nodal.R_HB;
+  motion.R_WF = X_WH.R * nodal.R_HB * attachment.R_BF;
   motion.arm_B.setZero();
   motion.J_psi.setIdentity();
-  motion.p_WF = X_WH * motion.nodal.p_H;
-  motion.v_WF_W = X_WH.R * motion.nodal.v_H;
-  motion.w_WF_W = X_WH.R * motion.nodal.w_H;
+  motion.p_WF = X_WH * nodal.p_H;
+  motion.v_WF_W = X_WH.R * nodal.v_H;
+  motion.w_WF_W = X_WH.R * nodal.w_H;
 }
 
 joints::RelativeMotion relate(const FrameMotion& F, const FrameMotion& M) {
@@ -152,8 +153,9 @@ FrameMotion find_frame_motion(const SystemModel& model,
                 attachment < static_cast<int>(model.attachments.size()));
   const Attachment& a = model.attachments[static_cast<std::size_t>(attachment)];
   if (a.nodal) {
+    NodalFrameMotion nodal;
     AttachmentMotion motion;
-    calc_nodal_attachment(model, a, state, motion);
+    calc_nodal_attachment(model, a, state, nodal, motion);
     return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
   }
   Matrix3 R_WB = Matrix3::Identity();

@@ -25,15 +25,16 @@ namespace limber::dynamics {
 ///            at level nonlinear to second order in eta
 ///            (flexbody/model/quadratic_frame.hpp).
 struct AttachmentMotion {
-  Matrix3 R_WB;            ///< [-]
-  Matrix3 R_WF;            ///< [-]
-  Vector3 arm_B;           ///< p_BF + Phi eta, from Bo [m]
-  Matrix3 J_psi;           ///< left Jacobian at Psi eta [-]
-  Vector3 p_WF;            ///< [m]
-  Vector3 v_WF_W;          ///< [m/s]
-  Vector3 w_WF_W;          ///< [rad/s]
-  NodalFrameMotion nodal;  ///< on an unreduced body
-  Vector3 psi;             ///< rotation vector in the body, Psi eta [rad]
+  Matrix3 R_WB;    ///< [-]
+  Matrix3 R_WF;    ///< [-]
+  Vector3 arm_B;   ///< p_BF + Phi eta, from Bo [m]
+  Matrix3 J_psi;   ///< left Jacobian at Psi eta [-]
+  Vector3 p_WF;    ///< [m]
+  Vector3 v_WF_W;  ///< [m/s]
+  Vector3 w_WF_W;  ///< [rad/s]
+  Vector3 psi;     ///< rotation vector in the body, Psi eta [rad]
+  int nodal =
+      -1;  ///< index into SystemTerms::nodal_frames, on an unreduced body
   /// Of an interface at level nonlinear alone: its tables at eta, 3 x m, and
   /// the force and moment J_psi' m on it, body frame [N, N m].
   Matrix3X Phi_B;  ///< [kg^-1/2]
@@ -63,10 +64,11 @@ void calc_attachment_motion(const SystemModel& model,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion);
 
-/// The same for an attachment on an unreduced body.
+/// The same for an attachment on an unreduced body. Fills `nodal`, too.
 void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
-                           const SystemState& state, AttachmentMotion& motion);
+                           const SystemState& state, NodalFrameMotion& nodal,
+                           AttachmentMotion& motion);
 
 /// Motion of frame M in frame F, from their motions in the world.
 [[nodiscard]] joints::RelativeMotion relate(const FrameMotion& F,

@@ -20,7 +20,6 @@ namespace limber::dynamics {
 struct BodyTerms {
   Matrix3 R_WB;             ///< [-]
   Matrix3 J;                ///< inertia at the level's fidelity [kg m^2]
-  Matrix3X H;               ///< 3 x m, sum_k eta_k beta_kl [kg^1/2 m]
   Vector3 bias_r;           ///< Jdot w + w x (J w + H etadot) [N m]
   VectorX bias_e;           ///< inertial, damping and elastic terms [kg^-1/2 N]
   Vector3 force_W;          ///< resultant of loads and couplers [N]
@@ -36,10 +35,13 @@ struct BodyTerms {
   /// Of Maxwell elements over the step, relative to the elastic one; set by
   /// integrators, else 0 [-].
   double maxwell_stiffness = 0.0;
-  /// Of level coupled, p = m rounded up to four; other levels have none:
-  /// p x 12, columns: six of dJ/deta [kg^1/2 m], three of H, three of beta
-  /// etadot [kg^1/2 m/s].
+  /// p x 12, p = m rounded up to four, columns: six of dJ/deta [kg^1/2 m],
+  /// three of H, three of beta etadot [kg^1/2 m/s]; zero below level coupled.
   Eigen::Matrix<double, Eigen::Dynamic, 12> by_mode;
+  /// 3 x m, sum_k eta_k beta_kl [kg^1/2 m].
+  [[nodiscard]] auto H() const {
+    return by_mode.middleCols<3>(6).topRows(modal_force.size()).transpose();
+  }
   [[nodiscard]] Vector6 dJ(int mode) const {
     return by_mode.row(mode).head<6>().transpose();
   }
@@ -114,7 +116,13 @@ struct SystemTerms {
   std::vector<BodyTerms> bodies;              ///< by calc_inertia_terms
   std::vector<FullTerms> full;                ///< by both
   std::vector<AttachmentMotion> attachments;  ///< by calc_forces
-  std::vector<CouplerTerms> couplers;         ///< by calc_forces
+  /// Of attachments on unreduced bodies; by calc_forces.
+  std::vector<NodalFrameMotion> nodal_frames;
+  [[nodiscard]] const NodalFrameMotion& nodal_frame(
+      const AttachmentMotion& motion) const {
+    return nodal_frames[static_cast<std::size_t>(motion.nodal)];
+  }
+  std::vector<CouplerTerms> couplers;  ///< by calc_forces
   /// Of ideal joints; by calc_forces. Over a step the gap is that at its end.
   std::vector<joints::ConstraintGap> constraints;
   std::vector<TransmissionTerms> transmissions;  ///< by calc_forces

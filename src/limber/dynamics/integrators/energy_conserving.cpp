@@ -199,9 +199,9 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
     double inertial =
         is_spun && !is_coupled ? ww.dot(body.inertia->J1().row(k)) : 0.0;
     if (is_coupled) {
-      pi0 += first.H.col(k) * from.etadot[i];
-      pi1 += last.H.col(k) * next_.etadot[i];
-      change += last.H.col(k).dot(w1) - first.H.col(k).dot(w0);
+      pi0 += first.H().col(k) * from.etadot[i];
+      pi1 += last.H().col(k) * next_.etadot[i];
+      change += last.H().col(k).dot(w1) - first.H().col(k).dot(w0);
       inertial = 0.5 * (ww.dot(first.dJ(k) + last.dJ(k)) -
                         w0.dot(last.beta_rate(k)) - w1.dot(first.beta_rate(k)));
     }

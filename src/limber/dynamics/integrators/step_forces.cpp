@@ -256,7 +256,8 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   BodyTerms& t = terms.bodies[b];
   t.R_WB = step.motion.bodies[b].middle_R_WB;
   t.J = step.end_terms.bodies[b].J;
-  t.H = step.end_terms.bodies[b].H;
+  t.by_mode.middleCols<3>(6) =
+      step.end_terms.bodies[b].by_mode.middleCols<3>(6);
   t.supplied = t.dissipated = 0.0;
   t.force_W.setZero();
   t.moment_B.setZero();

@@ -60,27 +60,54 @@ LIMBER_KERNEL void push(const InterfaceColumns& interface, const double* force,
   }
 }
 
+// Two columns of six at a time.
 template <typename Lanes>
 LIMBER_KERNEL void add_columns(const double* G, const double* x,
                                std::size_t count, double* sum) {
   auto head = spread<Lanes>(0.0);
-  Two tail{};
-  for (std::size_t k = 0; k < count; ++k, G += 6) {
-    head = head + Lanes::load(G) * spread<Lanes>(x[k]);
-    tail = tail + load_vector<Two>(G + 4) * Two{x[k], x[k]};
+  auto middle = head;
+  auto tail = head;
+  std::size_t k = 0;
+  for (; k + 2 <= count; k += 2, G += 12) {
+    const double a = x[k];
+    const double b = x[k + 1];
+    head = head + Lanes::load(G) * spread<Lanes>(a);
+    middle = middle + Lanes::load(G + 4) * Lanes::set(a, a, b, b);
+    tail = tail + Lanes::load(G + 8) * spread<Lanes>(b);
   }
-  (Lanes::load(sum) + head).store(sum);
-  store_vector(load_vector<Two>(sum + 4) + tail, sum + 4);
+  double all[12];
+  head.store(all);
+  middle.store(all + 4);
+  tail.store(all + 8);
+  for (std::size_t i = 0; i < 6; ++i) {
+    all[i] += all[6 + i];
+    if (k < count) all[i] += G[i] * x[k];
+    sum[i] += all[i];
+  }
 }
 
+// Four columns of six at a time.
 template <typename Lanes>
 LIMBER_KERNEL void add_dots(const double* G, const double* wrench,
                             std::size_t count, double* x) {
-  const auto head = Lanes::load(wrench);
-  const auto tail = load_vector<Two>(wrench + 4);
-  for (std::size_t k = 0; k < count; ++k, G += 6) {
-    const Two last = load_vector<Two>(G + 4) * tail;
-    x[k] += (Lanes::load(G) * head).sum() + (last[0] + last[1]);
+  const double* const w = wrench;
+  const auto head = Lanes::load(w);
+  const auto middle = Lanes::set(w[4], w[5], w[0], w[1]);
+  const auto tail = Lanes::load(w + 2);
+  std::size_t k = 0;
+  for (; k + kLanes <= count; k += kLanes, G += 24) {
+    const auto first =
+        Lanes::sum_pairs(Lanes::load(G) * head, Lanes::load(G + 4) * middle);
+    const auto second =
+        Lanes::sum_pairs(Lanes::load(G + 8) * tail, Lanes::load(G + 12) * head);
+    const auto third = Lanes::sum_pairs(Lanes::load(G + 16) * middle,
+                                        Lanes::load(G + 20) * tail);
+    (Lanes::load(x + k) + Lanes::sum_triples(first, second, third))
+        .store(x + k);
+  }
+  for (; k < count; ++k, G += 6) {
+    x[k] += (G[0] * w[0] + G[1] * w[1]) + (G[2] * w[2] + G[3] * w[3]) +
+            (G[4] * w[4] + G[5] * w[5]);
   }
 }
 

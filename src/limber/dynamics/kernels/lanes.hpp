@@ -63,6 +63,19 @@ struct PairOfTwo {
   LIMBER_KERNEL double sum_of_three() const {
     return (low[0] + low[1]) + high[0];
   }
+  /// (a0 + a1, a2 + a3, b0 + b1, b2 + b3).
+  LIMBER_KERNEL static PairOfTwo sum_pairs(PairOfTwo a, PairOfTwo b) {
+    return {Two{a.low[0], a.high[0]} + Two{a.low[1], a.high[1]},
+            Two{b.low[0], b.high[0]} + Two{b.low[1], b.high[1]}};
+  }
+  /// Sums of three each of the twelve numbers a, b, c in a row.
+  LIMBER_KERNEL static PairOfTwo sum_triples(PairOfTwo a, PairOfTwo b,
+                                             PairOfTwo c) {
+    return {Two{a.low[0], a.high[1]} + Two{a.low[1], b.low[0]} +
+                Two{a.high[0], b.low[1]},
+            Two{b.high[0], c.low[1]} + Two{b.high[1], c.high[0]} +
+                Two{c.low[0], c.high[1]}};
+  }
 };
 
 /// In one register of four.
@@ -89,6 +102,20 @@ struct OneOfFour {
   }
   LIMBER_KERNEL double sum_of_three() const {
     return (all[0] + all[1]) + all[2];
+  }
+  LIMBER_KERNEL static OneOfFour sum_pairs(OneOfFour a, OneOfFour b) {
+    const Four sums = __builtin_shufflevector(a.all, b.all, 0, 4, 2, 6) +
+                      __builtin_shufflevector(a.all, b.all, 1, 5, 3, 7);
+    return {__builtin_shufflevector(sums, sums, 0, 2, 1, 3)};
+  }
+  LIMBER_KERNEL static OneOfFour sum_triples(OneOfFour a, OneOfFour b,
+                                             OneOfFour c) {
+    const Four ab = __builtin_shufflevector(a.all, b.all, 0, 1, 6, 7);
+    const Four ac = __builtin_shufflevector(a.all, c.all, 2, 3, 4, 5);
+    const Four bc = __builtin_shufflevector(b.all, c.all, 0, 1, 6, 7);
+    return {__builtin_shufflevector(ab, ac, 0, 5, 2, 7) +
+            __builtin_shufflevector(ab, bc, 1, 4, 3, 6) +
+            __builtin_shufflevector(ac, bc, 0, 5, 2, 7)};
   }
 };
 

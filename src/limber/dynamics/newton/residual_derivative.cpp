@@ -101,8 +101,8 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
     Jdot += J_k * etadot[k];
     d_J += J_k * d_eta[k];
     d_Jdot += d_J_k * etadot[k] + J_k * d_etadot;
-    h += t.H.col(k) * etadot[k];
-    d_h += d_H * etadot[k] + t.H.col(k) * d_etadot;
+    h += t.H().col(k) * etadot[k];
+    d_h += d_H * etadot[k] + t.H().col(k) * d_etadot;
     d_H_etaddot += d_H * etaddot[k];
     r_modes[k] += d_H.dot(wdot) + 2.0 * d_w.dot(t.beta_rate(k)) +
                   2.0 * c_.velocity * w.dot(d_H) - d_w_squared.dot(J_k) -
@@ -165,12 +165,13 @@ ResidualDerivative::FrameChange ResidualDerivative::change_frame(
 ResidualDerivative::FrameChange ResidualDerivative::change_nodal_frame(
     const Attachment& attachment, const AttachmentMotion& motion,
     const VectorX& x) const {
+  const NodalFrameMotion& nodal = terms_->nodal_frame(motion);
   // Of a nodal frame only nodes move.
   const UnknownRange nodes =
       *list_unknowns(model_, index(attachment.body)).begin();
   Matrix6X G(6, nodes.size);
-  calc_nodal_jacobian(*attachment.nodal, motion.nodal,
-                      motion.R_WB * motion.nodal.R_HB.transpose(), G);
+  calc_nodal_jacobian(*attachment.nodal, nodal,
+                      motion.R_WB * nodal.R_HB.transpose(), G);
   const Vector6 moved = G * x.segment(nodes.row, nodes.size);
   return {moved.head<3>(), moved.tail<3>(), c_.velocity * moved.head<3>(),
           c_.velocity * moved.tail<3>()};

@@ -259,4 +259,11 @@ class ModelCheck {
 
 void check_model(const SystemModel& model) { ModelCheck(model).run(); }
 
+SystemModel with_controllers(SystemModel model,
+                             std::vector<ControllerModel> controllers) {
+  model.controllers = std::move(controllers);
+  check_model(model);
+  return model;
+}
+
 }  // namespace limber::dynamics

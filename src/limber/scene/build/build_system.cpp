@@ -17,6 +17,7 @@
 #include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/system/model_check.hpp"
 #include "limber/dynamics/system/model_fields.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
@@ -158,7 +159,9 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);
   }
-  add_controllers(scene.scenario, built.probes, built.model, built.initial);
+  built.model = dynamics::with_controllers(
+      std::move(built.model), make_controllers(scene.scenario, built.probes));
+  built.initial.controllers = dynamics::make_state(built.model).controllers;
   for (int link = 0; link < std::ssize(scene.robot.links); ++link) {
     built.links.push_back(assembly.place_link(link));
   }

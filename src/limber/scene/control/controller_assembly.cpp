@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/system/model_check.hpp"
 #include "limber/scene/control/measured_probe.hpp"
 #include "limber/scene/text/error_context.hpp"
 
@@ -40,9 +39,9 @@ int find_controller(const Scenario& scenario, const std::string& name) {
   return static_cast<int>(found - scenario.controllers.begin());
 }
 
-void add_controllers(const Scenario& scenario, const std::vector<Probe>& probes,
-                     dynamics::SystemModel& model,
-                     dynamics::SystemState& initial) {
+std::vector<dynamics::ControllerModel> make_controllers(
+    const Scenario& scenario, const std::vector<Probe>& probes) {
+  std::vector<dynamics::ControllerModel> controllers;
   for (const ControllerSpec& spec : scenario.controllers) {
     with_context("controller '" + spec.name + "'", [&] {
       const auto law =
@@ -51,18 +50,17 @@ void add_controllers(const Scenario& scenario, const std::vector<Probe>& probes,
           .name = spec.name,
           .period = spec.pid.period,
           .offset = spec.offset,
-          .writes = {static_cast<int>(model.controllers.size())},
+          .writes = {static_cast<int>(controllers.size())},
           .measures = {measure(probes, spec.measures)},
           .memory = law->make_memory(),
           .law = law};
       if (spec.pid.has_rate) {
         controller.measures.push_back(measure(probes, spec.rate));
       }
-      model.controllers.push_back(std::move(controller));
+      controllers.push_back(std::move(controller));
     });
   }
-  dynamics::check_model(model);
-  initial.controllers = dynamics::make_state(model).controllers;
+  return controllers;
 }
 
 }  // namespace limber::scene

@@ -18,12 +18,10 @@ void add_inputs(const Scenario& scenario, dynamics::SystemBuilder& builder);
 [[nodiscard]] int find_controller(const Scenario& scenario,
                                   const std::string& name);
 
-/// Adds the controllers, which measure probes, to a system that has their
-/// inputs, and their memory to its initial state.
+/// The controllers, which measure probes, each of the input of its index.
 /// @param probes of the system, with their starts
 /// @throws InputError naming the controller if a probe has no such column.
-void add_controllers(const Scenario& scenario, const std::vector<Probe>& probes,
-                     dynamics::SystemModel& model,
-                     dynamics::SystemState& initial);
+[[nodiscard]] std::vector<dynamics::ControllerModel> make_controllers(
+    const Scenario& scenario, const std::vector<Probe>& probes);
 
 }  // namespace limber::scene
