@@ -58,7 +58,7 @@ CouplerResponse Joint::evaluate(const RelativeMotion& motion,
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion); },
       acting_);
-  if (is_ideal()) add_constraint_wrench(motion, memory, response);
+  add_constraint_wrench(motion, memory, response);
   if (elements().empty()) return response;
   // Laws along one coordinate are summed.
   for (std::size_t i = 0; i < coordinates().size(); ++i) {
@@ -86,7 +86,7 @@ CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
   CouplerResponse response = std::visit(
       [&](const auto& constraint) { return constraint.evaluate(motion.mean); },
       acting_);
-  if (is_ideal()) add_constraint_wrench(motion.mean, memory, response);
+  add_constraint_wrench(motion.mean, memory, response);
   for (std::size_t e = 0; e < elements().size(); ++e) {
     const JointElement& element = elements()[e];
     const auto i = static_cast<std::size_t>(element.coordinate);
@@ -197,6 +197,7 @@ std::optional<ConstraintStiffness> Joint::find_constraint_stiffness() const {
 void Joint::add_constraint_wrench(const RelativeMotion& motion,
                                   const CouplerMemory& memory,
                                   CouplerResponse& response) const {
+  if (memory.constraint_wrench.isZero(0.0)) return;
   response.wrench +=
       find_constraint_gap(motion).directions * memory.constraint_wrench;
 }

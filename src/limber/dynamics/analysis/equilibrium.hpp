@@ -41,7 +41,8 @@ struct Equilibrium {
 /// Static equilibrium under loads, gravity, couplers and drives at their
 /// commands, all at the start's time (after a jump at that time). Ignores
 /// velocities and friction. Latches do not change. Ideal joints are stiff ones
-/// here (stiff_joints.hpp).
+/// here (stiff_joints.hpp), which at the end transmit what holds the ideal ones
+/// without a deflection.
 ///
 /// Equation   f(x) = (1 - s) f(x_0), s from 0 to 1: the imbalance at
 ///            the start x_0 is applied gradually (numerical continuation), with

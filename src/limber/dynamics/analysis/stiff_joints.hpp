@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
@@ -14,7 +14,14 @@ namespace limber::dynamics {
 /// unknowns are positions alone; none if it has no ideal joint. Where their
 /// stiffness is a default, they add 1 / kIdealStiffnessRatio to the flexibility
 /// of the stiffer side.
+/// They add to CouplerMemory::constraint_wrench of a state.
 [[nodiscard]] std::optional<SystemModel> replace_ideal_joints(
     const SystemModel& model);
+
+/// Sets that wrench to what the stiff joints transmit at a state, so that they
+/// transmit as much without a deflection.
+/// @param stiff of `model`, by replace_ideal_joints
+void store_wrenches(const SystemModel& model, const SystemModel& stiff,
+                    SystemState& state);
 
 }  // namespace limber::dynamics

@@ -15,6 +15,7 @@
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_failure.hpp"
+#include "limber/dynamics/newton/velocity_terms.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -143,6 +144,14 @@ void GeneralizedAlpha::refactor(bool renews_all) {
   renews_all_ = false;
 }
 
+// Factors for a start at the current state, which no step keeps, and no gaps.
+void GeneralizedAlpha::factor_afresh() {
+  motion_.setZero();
+  std::ranges::fill(gaps_, Vector6::Zero());
+  refactor();
+  factored_step_ = 0.0;
+}
+
 // Factors for the current iterate. Unreduced bodies keep their stiffness and
 // renew only its frame, unless `renews_all`.
 void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
@@ -156,25 +165,25 @@ void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
   factored_step_ = h;
 }
 
-// Adds accelerations for the residual: M^-1 times it for motion that the step
-// resolves, quasi-static ones for stiffer motion.
+// Adds accelerations for the residual and the gaps of links: M^-1 times it for
+// motion that the step resolves, quasi-static ones for stiffer motion.
 void GeneralizedAlpha::add_quasi_static_accelerations() {
-  motion_.setZero();
-  refactor();
-  factored_step_ = 0.0;
-  matrix_.solve(model_, terms_, residual_, x_);
+  matrix_.solve(model_, terms_, residual_, gaps_, x_);
   a_ += coefficients_.acceleration * x_;
   vdot_ += coefficients_.acceleration * x_;
 }
 
 void GeneralizedAlpha::start(const SystemState& state, double h) {
-  a_.setZero();
-  vdot_ = vdot_next_ = a_;
   memory_step_ = trend_step_ = 0.0;
   next_ = state;
   set_coefficients(h);
+  a_.setZero();
+  vdot_ = vdot_next_ = a_;
   calc_terms(model_, next_, Side::right, terms_);
   calc_residual(model_, vdot_next_, terms_, residual_);
+  factor_afresh();
+  add_velocity_terms(terms_, find_velocity_terms(model_, next_),
+                     coefficients_.acceleration, coefficients_.velocity, gaps_);
   add_quasi_static_accelerations();
   work_.start(next_, terms_);
 }
@@ -190,6 +199,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
   calc_forces(model_, next_, Side::right, terms_);
   calc_residual(model_, vdot_next_, terms_, residual_);
   residual_ -= before;
+  factor_afresh();
   add_quasi_static_accelerations();
   work_.start(next_, terms_);
 }

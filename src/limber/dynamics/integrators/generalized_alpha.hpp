@@ -77,6 +77,7 @@ class GeneralizedAlpha final : public Integrator {
   void judge_early(bool keeps);
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h, double taken);
+  void factor_afresh();
   void add_quasi_static_accelerations();
   bool predict(const SystemState& from, double h, double end);
   void extrapolate_wrenches(double h);

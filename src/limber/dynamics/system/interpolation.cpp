@@ -64,6 +64,10 @@ void interpolate(const SystemModel& model, const SystemState& begin,
   state.maxwell = begin.maxwell + fraction * (end.maxwell - begin.maxwell);
   state.X_WH = end.X_WH;
   state.memory = begin.memory;
+  for (std::size_t c = 0; c < state.memory.size(); ++c) {
+    Vector6& wrench = state.memory[c].constraint_wrench;
+    wrench += fraction * (end.memory[c].constraint_wrench - wrench);
+  }
   // An input's line before its last jump is that of the step, too.
   state.inputs = end.inputs;
   state.controllers = end.controllers;
