@@ -16,11 +16,11 @@
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/controller_sampling.hpp"
-#include "limber/dynamics/simulation/event_stepper.hpp"
 #include "limber/dynamics/simulation/progress_pulse.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
-#include "limber/dynamics/simulation/step_control.hpp"
-#include "limber/dynamics/simulation/work_budget.hpp"
+#include "limber/dynamics/stepping/event_stepper.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
+#include "limber/dynamics/stepping/work_budget.hpp"
 #include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/simulation/error_budget.hpp"
+#include "limber/dynamics/stepping/error_budget.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {

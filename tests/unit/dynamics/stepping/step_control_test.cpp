@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
 
 #include <gtest/gtest.h>
 

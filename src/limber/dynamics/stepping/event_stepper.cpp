@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/event_stepper.hpp"
+#include "limber/dynamics/stepping/event_stepper.hpp"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include "limber/dynamics/monitors/event_observer.hpp"
 #include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
-#include "limber/dynamics/simulation/damper_impulse.hpp"
+#include "limber/dynamics/stepping/damper_impulse.hpp"
 
 namespace limber::dynamics {
 
