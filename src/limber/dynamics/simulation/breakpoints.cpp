@@ -165,13 +165,26 @@ std::vector<Breakpoint> find_step_breakpoints(
   return find_breakpoints(model, start, no_outputs);
 }
 
-std::vector<double> find_outputs_after(double start,
-                                       const SimulationSettings& settings) {
-  std::vector<double> times;
-  for (const double t : settings.output_times) {
-    if (t > start) times.push_back(t);
-  }
-  return times;
+void BreakpointQueue::pass() {
+  const double passed = next().time;
+  if (!is_stop_next_) ++next_;
+  const bool was_stop = stop_.time <= passed + find_same_time(passed, start_);
+  stop_at(was_stop ? kNever : stop_.time);
+}
+
+void BreakpointQueue::stop_at(double t) {
+  stop_.time = t;
+  is_stop_next_ =
+      !is_empty() && t < all_[next_].time - find_same_time(t, start_);
+}
+
+long count_equal_steps(const SimulationSettings& settings, double from,
+                       double to) {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double span =
+      to - from - kRounding * std::max(std::abs(from), std::abs(to));
+  const double count = span / find_longest_step(settings, from);
+  return std::max(static_cast<long>(std::ceil(count * (1.0 - 1e-12))), 1L);
 }
 
 double count_steps(const SimulationSettings& settings, double from,
