@@ -15,12 +15,6 @@
 
 namespace limber::dynamics {
 
-/// The length that a step is to have, and what determines it.
-struct PlannedStep {
-  double length = 0.0;  ///< [s]
-  StepCause cause = StepCause::given;
-};
-
 /// All that observes the steps and outputs of a run. It ends a run whose motion
 /// blows up, and knows from a state before that why a run fails.
 class RunObservers {

@@ -16,10 +16,6 @@ namespace {
 constexpr int kMostHalvings = 10;
 constexpr double kSameTime =
     1e-9;  // fraction of a step that counts as its end [-]
-constexpr double kFewestStepsToAMark = 4.0;  // with a tolerance
-// With a tolerance: the mean force in a step is then right to 1.3 % of the
-// amplitude, and the estimate of a step's error sees the force change.
-constexpr double kFewestStepsToAPeriod = 16.0;
 // Errors of an oscillation's steps add up to twice their sum, or a little more.
 constexpr double kBudgetFraction = 0.5;  // of the tolerance
 
@@ -40,13 +36,12 @@ StepTaker::StepTaker(const SystemModel& model,
     : model_(model),
       settings_(settings),
       start_(start),
-      refinement_(refinement),
       stepper_(stepper),
       observers_(observers),
       statistics_(statistics),
-      control_(make_budget(settings, start), settings.step, refinement),
-      budget_(model.bodies.size()),
-      oscillations_(find_oscillations(model)) {}
+      control_(make_budget(settings, start), settings.step, refinement,
+               find_oscillations(model)),
+      budget_(model.bodies.size()) {}
 
 void StepTaker::plan(const SystemState& state, double mark, bool is_first) {
   origin_ = state.t;
@@ -180,12 +175,13 @@ void StepTaker::check_budget(const SystemState& state, double h) {
 void StepTaker::check_most_steps(const SystemState& state) {
   const long steps = statistics_.steps + statistics_.rejected_steps;
   if (steps < settings_.most_steps) return;
+  const std::string why = control_.describe_oscillation(state.t, mark_, h_);
   fail(state, h_,
        fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
                    "steps than most_steps allows, now {:.3g} s long; use a "
                    "larger tolerance, a shorter time or more steps; {}",
                    state.t, settings_.tolerance, h_,
-                   describe_short_steps(state)));
+                   why.empty() ? describe_failure(state) : why));
 }
 
 // Without a budget, repeated halving could make a run a thousand times longer.
@@ -209,47 +205,9 @@ std::string StepTaker::describe_failure(const SystemState& state) const {
   return "most energy is in " + find_most_energy(model_, state);
 }
 
-// Why steps to a tolerance are short.
-std::string StepTaker::describe_short_steps(const SystemState& state) const {
-  const Oscillation* fastest = find_oscillation(state.t);
-  if (!fastest ||
-      h_ < 0.5 * refinement_ * fastest->period / kFewestStepsToAPeriod) {
-    return describe_failure(state);
-  }
-  return fmt::format("{} has a period of {:.3g} s, which they follow",
-                     fastest->name, fastest->period);
-}
-
-// The fastest one from t to the next breakpoint.
-const Oscillation* StepTaker::find_oscillation(double t) const {
-  return find_fastest(oscillations_, 0.5 * (t + mark_));
-}
-
-// The longest step that shows what does not appear in its error: loads that are
-// zero at both ends, or the same after a whole period, and touches.
-PlannedStep StepTaker::limit_free(double t) {
-  const Oscillation* fastest = find_oscillation(t);
-  const double period = fastest ? fastest->period : kNever;
-  PlannedStep step{(mark_ - origin_) / kFewestStepsToAMark,
-                   StepCause::breakpoint};
-  const auto limit = [&](double length, StepCause cause) {
-    if (length < step.length) step = {length, cause};
-  };
-  limit(period / kFewestStepsToAPeriod, StepCause::oscillation);
-  limit(stepper_.touches().find_longest_step(t), StepCause::impact);
-  step.length *= refinement_;
-  return step;
-}
-
 PlannedStep StepTaker::plan_free(const SystemState& state) {
-  const double left = mark_ - state.t;
-  const double proposed = control_.propose(state, left);
-  const PlannedStep limit = limit_free(state.t);
-  if (limit.length < proposed) return limit;
-  if (proposed >= left) return {proposed, StepCause::breakpoint};
-  if (proposed < control_.step()) return {proposed, StepCause::rotation};
-  const bool is_longest = proposed >= refinement_ * settings_.step;
-  return {proposed, is_longest ? StepCause::given : StepCause::tolerance};
+  return control_.plan(state, origin_, mark_,
+                       stepper_.touches().find_longest_step(state.t));
 }
 
 void StepTaker::exchange_memory(Archive& archive) {

@@ -3,14 +3,12 @@
 
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "limber/dynamics/simulation/progress_pulse.hpp"
 #include "limber/dynamics/simulation/run_observers.hpp"
 #include "limber/dynamics/stepping/event_stepper.hpp"
 #include "limber/dynamics/stepping/step_control.hpp"
 #include "limber/dynamics/stepping/work_budget.hpp"
-#include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {
 
@@ -51,24 +49,18 @@ class StepTaker {
   void check_budget(const SystemState& state, double h);
   void check_most_steps(const SystemState& state);
   void count_fraction(const SystemState& state);
-  [[nodiscard]] PlannedStep limit_free(double t);
   [[nodiscard]] PlannedStep plan_free(const SystemState& state);
-  [[nodiscard]] const Oscillation* find_oscillation(double t) const;
   [[nodiscard]] std::string describe_failure(const SystemState& state) const;
-  [[nodiscard]] std::string describe_short_steps(
-      const SystemState& state) const;
   [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
 
   const SystemModel& model_;
   const SimulationSettings& settings_;
-  double start_;       // of the run [s]
-  double refinement_;  // [-]
+  double start_;  // of the run [s]
   EventStepper& stepper_;
   RunObservers& observers_;
   SimulationStatistics& statistics_;
   StepControl control_;
   WorkBudget budget_;
-  std::vector<Oscillation> oscillations_;
   double origin_ = 0.0;  // where the steps to the mark began [s]
   double mark_ = std::numeric_limits<double>::quiet_NaN();
   long part_ = 0;        // number of the step to it
