@@ -162,11 +162,9 @@ void TimeLoop::refresh() {
   refreshed_solves_ = statistics_.linear_solves;
 }
 
-Checkpoint TimeLoop::save(SystemState& state) {
+void TimeLoop::save(Archive& archive, SystemState& state) {
   refresh();
-  Archive archive;
   exchange_memory(archive, state);
-  return {state.t, archive.take_numbers(), {}, observers_.visits()};
 }
 
 void TimeLoop::hold_checkpoint(SystemState& state) {
@@ -174,7 +172,7 @@ void TimeLoop::hold_checkpoint(SystemState& state) {
   // It has about the size of the last one.
   Archive archive = Archive::write_into(
       checkpoint_ ? std::move(checkpoint_->numbers) : std::vector<double>());
-  if (keeper_.write_outer) keeper_.write_outer(archive);
+  if (keeper_.exchange_outer) keeper_.exchange_outer(archive);
   if (has_started_) exchange_memory(archive, state);
   checkpoint_ = {state.t, archive.take_numbers(), {}, observers_.visits()};
 }
@@ -187,11 +185,11 @@ void TimeLoop::keep_checkpoint() {
   kept_ = Clock::now();
 }
 
-void TimeLoop::resume(const Checkpoint& checkpoint, SystemState& state) {
-  if (checkpoint.numbers.empty()) return;  // of the start
-  Archive archive(checkpoint.numbers);
+void TimeLoop::resume(Archive& archive, const std::vector<double>& log,
+                      SystemState& state) {
+  if (!archive.has_more()) return;  // of the start
   exchange_memory(archive, state);
-  observers_.resume(state, checkpoint.log);
+  observers_.resume(state, log);
 }
 
 void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {

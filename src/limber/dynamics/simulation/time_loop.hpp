@@ -34,8 +34,9 @@ class TimeLoop {
            double refinement, const Followed& followed = {}, Check check = {});
 
   /// Resumes from a checkpoint: sets `state` and the history. Outputs before it
-  /// are not visited again.
-  void resume(const Checkpoint& checkpoint, SystemState& state);
+  /// are not visited again. @param log of all checkpoints
+  void resume(Archive& archive, const std::vector<double>& log,
+              SystemState& state);
 
   /// @throws NumericalError naming the body or coupler and the time, and the
   /// likely cause; `state` is then that of the last good step. Interrupted, if
@@ -55,9 +56,9 @@ class TimeLoop {
   /// @throws NumericalError as run() does.
   void repeat_external_samples(SystemState& state);
 
-  /// A checkpoint of now for resume(). Discards cached factors, so that both
-  /// runs continue identically to the bit.
-  [[nodiscard]] Checkpoint save(SystemState& state);
+  /// Saves the run for resume(). Discards cached factors, so that both runs
+  /// continue identically to the bit.
+  void save(Archive& archive, SystemState& state);
 
   [[nodiscard]] Losses losses() const { return stepper_.losses(); }
 
