@@ -84,13 +84,15 @@ void add_samples(const ControllerModel& controller, double start,
 }
 
 std::vector<Breakpoint> gather(const SystemModel& model, double start,
-                               const SimulationSettings& settings) {
+                               const SimulationSettings& settings,
+                               bool has_outputs) {
   std::vector<Breakpoint> marks;
   const auto add = [&](double t, bool is_jump) {
     if (t > start && t < settings.end_time) marks.push_back({t, is_jump});
   };
   for (const double t : settings.output_times) {
-    if (t > start && t <= settings.end_time) marks.push_back({t, false, true});
+    if (has_outputs && t > start && t <= settings.end_time)
+      marks.push_back({t, false, true});
   }
   for (const StepChange& change : settings.step_changes) {
     add(change.from, false);
@@ -122,9 +124,10 @@ std::vector<Breakpoint> gather(const SystemModel& model, double start,
 }  // namespace
 
 std::vector<Breakpoint> find_breakpoints(const SystemModel& model, double start,
-                                         const SimulationSettings& settings) {
+                                         const SimulationSettings& settings,
+                                         bool has_outputs) {
   check_step_count(settings, start);
-  std::vector<Breakpoint> marks = gather(model, start, settings);
+  std::vector<Breakpoint> marks = gather(model, start, settings, has_outputs);
   std::stable_sort(
       marks.begin(), marks.end(),
       [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
@@ -152,17 +155,6 @@ double find_same_time(double t, double start) {
 double find_time_after(double t) {
   return t + std::max(2.0 * find_same_time(t, t),
                       std::numeric_limits<double>::min());
-}
-
-std::vector<Breakpoint> find_step_breakpoints(
-    const SystemModel& model, double start,
-    const SimulationSettings& settings) {
-  if (settings.tolerance == 0.0) {
-    return find_breakpoints(model, start, settings);
-  }
-  SimulationSettings no_outputs = settings;
-  no_outputs.output_times.clear();
-  return find_breakpoints(model, start, no_outputs);
 }
 
 void BreakpointQueue::pass() {

@@ -29,21 +29,21 @@ struct Breakpoint {
 /// All breakpoints after `start` [s], increasing; the last is the end. Times
 /// that differ by round-off only are merged.
 /// @throws InputError for steps or samples of controllers below the resolution
-/// of the time, or more than 1e7 samples.
+/// of the time, or more than 1e7 samples. @param has_outputs whether outputs
+/// are breakpoints
 [[nodiscard]] std::vector<Breakpoint> find_breakpoints(
-    const SystemModel& model, double start, const SimulationSettings& settings);
-
-/// The same; steps to a tolerance end where something jumps, not on outputs.
-[[nodiscard]] std::vector<Breakpoint> find_step_breakpoints(
-    const SystemModel& model, double start, const SimulationSettings& settings);
+    const SystemModel& model, double start, const SimulationSettings& settings,
+    bool has_outputs = true);
 
 /// The breakpoints of a run that it has not passed.
 class BreakpointQueue {
  public:
-  /// Those of find_step_breakpoints(). @param start of the run [s]
+  /// Steps to a tolerance do not end on outputs. @param start of the run [s]
   BreakpointQueue(const SystemModel& model, const SimulationSettings& settings,
                   double start)
-      : start_(start), all_(find_step_breakpoints(model, start, settings)) {}
+      : start_(start),
+        all_(find_breakpoints(model, start, settings,
+                              settings.tolerance == 0.0)) {}
 
   [[nodiscard]] bool is_empty() const { return next_ == all_.size(); }
   [[nodiscard]] const Breakpoint& next() const {
