@@ -16,7 +16,7 @@ inline constexpr long kSolvesOfAnAttempt = 2 * 20 * 64;
 
 /// Expects that a scene ended with finite results, or with an error that names
 /// a body or a coupler or what energy is open, within the work allowed by
-/// dynamics/simulation/work_budget.hpp.
+/// dynamics/stepping/work_budget.hpp.
 inline void expect_good_end(const RandomScene& scene,
                             const RandomOutcome& outcome) {
   using ::testing::AnyOf;

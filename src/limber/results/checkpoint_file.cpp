@@ -29,7 +29,7 @@ constexpr auto fields_of(const History*) {
 namespace {
 
 constexpr std::string_view kKind = "limber checkpoint";
-constexpr Seal kSeal = {kKind, 6};
+constexpr Seal kSeal = {kKind, 7};
 
 // Content of the checkpoint file.
 struct Head {

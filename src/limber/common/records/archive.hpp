@@ -49,14 +49,6 @@ class Archive {
   [[nodiscard]] std::vector<double> take_numbers() {
     return std::move(numbers_);
   }
-  /// When reading: the numbers that remain.
-  [[nodiscard]] std::vector<double> take_rest() {
-    numbers_.erase(numbers_.begin(),
-                   numbers_.begin() + static_cast<std::ptrdiff_t>(next_));
-    next_ = 0;
-    return std::move(numbers_);
-  }
-
   /// Writes the values, or reads them.
   /// @throws InputError when reading past the end.
   template <typename... Values>

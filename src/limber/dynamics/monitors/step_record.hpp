@@ -33,6 +33,12 @@ inline constexpr std::size_t kStepCauses = 8;
   return names.at(static_cast<std::size_t>(cause));
 }
 
+/// The length that a step is to have, and what determines it.
+struct PlannedStep {
+  double length = 0.0;  ///< [s]
+  StepCause cause = StepCause::given;
+};
+
 /// Accepted steps and parts of steps of a run, by what determined their length.
 struct StepRecord {
   struct Cause {

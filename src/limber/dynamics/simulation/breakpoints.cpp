@@ -84,13 +84,15 @@ void add_samples(const ControllerModel& controller, double start,
 }
 
 std::vector<Breakpoint> gather(const SystemModel& model, double start,
-                               const SimulationSettings& settings) {
+                               const SimulationSettings& settings,
+                               bool has_outputs) {
   std::vector<Breakpoint> marks;
   const auto add = [&](double t, bool is_jump) {
     if (t > start && t < settings.end_time) marks.push_back({t, is_jump});
   };
   for (const double t : settings.output_times) {
-    if (t > start && t <= settings.end_time) marks.push_back({t, false, true});
+    if (has_outputs && t > start && t <= settings.end_time)
+      marks.push_back({t, false, true});
   }
   for (const StepChange& change : settings.step_changes) {
     add(change.from, false);
@@ -122,9 +124,10 @@ std::vector<Breakpoint> gather(const SystemModel& model, double start,
 }  // namespace
 
 std::vector<Breakpoint> find_breakpoints(const SystemModel& model, double start,
-                                         const SimulationSettings& settings) {
+                                         const SimulationSettings& settings,
+                                         bool has_outputs) {
   check_step_count(settings, start);
-  std::vector<Breakpoint> marks = gather(model, start, settings);
+  std::vector<Breakpoint> marks = gather(model, start, settings, has_outputs);
   std::stable_sort(
       marks.begin(), marks.end(),
       [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
@@ -154,24 +157,26 @@ double find_time_after(double t) {
                       std::numeric_limits<double>::min());
 }
 
-std::vector<Breakpoint> find_step_breakpoints(
-    const SystemModel& model, double start,
-    const SimulationSettings& settings) {
-  if (settings.tolerance == 0.0) {
-    return find_breakpoints(model, start, settings);
-  }
-  SimulationSettings no_outputs = settings;
-  no_outputs.output_times.clear();
-  return find_breakpoints(model, start, no_outputs);
+void BreakpointQueue::pass() {
+  const double passed = next().time;
+  if (!is_stop_next_) ++next_;
+  const bool was_stop = stop_.time <= passed + find_same_time(passed, start_);
+  stop_at(was_stop ? kNever : stop_.time);
 }
 
-std::vector<double> find_outputs_after(double start,
-                                       const SimulationSettings& settings) {
-  std::vector<double> times;
-  for (const double t : settings.output_times) {
-    if (t > start) times.push_back(t);
-  }
-  return times;
+void BreakpointQueue::stop_at(double t) {
+  stop_.time = t;
+  is_stop_next_ =
+      !is_empty() && t < all_[next_].time - find_same_time(t, start_);
+}
+
+long count_equal_steps(const SimulationSettings& settings, double from,
+                       double to) {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double span =
+      to - from - kRounding * std::max(std::abs(from), std::abs(to));
+  const double count = span / find_longest_step(settings, from);
+  return std::max(static_cast<long>(std::ceil(count * (1.0 - 1e-12))), 1L);
 }
 
 double count_steps(const SimulationSettings& settings, double from,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "limber/common/records/archive.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 
@@ -27,17 +29,52 @@ struct Breakpoint {
 /// All breakpoints after `start` [s], increasing; the last is the end. Times
 /// that differ by round-off only are merged.
 /// @throws InputError for steps or samples of controllers below the resolution
-/// of the time, or more than 1e7 samples.
+/// of the time, or more than 1e7 samples. @param has_outputs whether outputs
+/// are breakpoints
 [[nodiscard]] std::vector<Breakpoint> find_breakpoints(
-    const SystemModel& model, double start, const SimulationSettings& settings);
+    const SystemModel& model, double start, const SimulationSettings& settings,
+    bool has_outputs = true);
 
-/// The same; steps to a tolerance end where something jumps, not on outputs.
-[[nodiscard]] std::vector<Breakpoint> find_step_breakpoints(
-    const SystemModel& model, double start, const SimulationSettings& settings);
+/// The breakpoints of a run that it has not passed.
+class BreakpointQueue {
+ public:
+  /// Steps to a tolerance do not end on outputs. @param start of the run [s]
+  BreakpointQueue(const SystemModel& model, const SimulationSettings& settings,
+                  double start)
+      : start_(start),
+        all_(find_breakpoints(model, start, settings,
+                              settings.tolerance == 0.0)) {}
 
-/// The output times after `start` [s].
-[[nodiscard]] std::vector<double> find_outputs_after(
-    double start, const SimulationSettings& settings);
+  [[nodiscard]] bool is_empty() const { return next_ == all_.size(); }
+  [[nodiscard]] const Breakpoint& next() const {
+    return is_stop_next_ ? stop_ : all_[next_];
+  }
+  /// The last one that was passed.
+  [[nodiscard]] const Breakpoint& last() const { return all_[next_ - 1]; }
+  /// Whether there are any until t [s].
+  [[nodiscard]] bool has_until(double t) const {
+    return !is_empty() && next().time <= t + find_same_time(t, start_);
+  }
+  /// Passes the next one.
+  void pass();
+  /// Adds one at t [s] if there is none, in place of one added before; kNever:
+  /// none.
+  void stop_at(double t);
+  /// Saves or restores how many were passed, except those added.
+  void exchange_memory(Archive& archive) { archive(next_); }
+
+ private:
+  double start_;  // [s]
+  std::vector<Breakpoint> all_;
+  std::size_t next_ = 0;
+  Breakpoint stop_ = {.time = kNever};  // that was added
+  bool is_stop_next_ = false;
+};
+
+/// Number of equal steps from one time to another, none longer than the
+/// settings allow at the first, except for the rounding of times [s].
+[[nodiscard]] long count_equal_steps(const SimulationSettings& settings,
+                                     double from, double to);
 
 /// Number of steps that the settings give between two times [s].
 [[nodiscard]] double count_steps(const SimulationSettings& settings,

@@ -16,7 +16,7 @@ namespace limber::dynamics {
 struct Checkpoint {
   double time = 0.0;  ///< [s]
   /// Of an Archive; of a run before its first step only those of outer loops
-  /// (CheckpointKeeper::write_outer) [mixed units].
+  /// (CheckpointKeeper::exchange_outer) [mixed units].
   std::vector<double> numbers = {};
   /// Data that grow with time [mixed units]: when saved, those since the last
   /// checkpoint; to resume, those of all checkpoints, concatenated.
@@ -34,8 +34,9 @@ struct CheckpointKeeper {
   /// Called between two steps; empty: no checkpoints. An interrupted run that
   /// has made no new one since its start or the last call does not call it.
   std::function<void(const Checkpoint&)> keep;
-  /// Writes data of outer loops before those of the run; may be empty.
-  std::function<void(Archive&)> write_outer = {};
+  /// Saves or restores data of outer loops, before those of the run; may be
+  /// empty.
+  std::function<void(Archive&)> exchange_outer = {};
 };
 
 /// Checkpoints to save, and one to resume from.

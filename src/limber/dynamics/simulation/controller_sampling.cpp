@@ -13,7 +13,6 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
-#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -45,7 +44,7 @@ void call(const ControllerModel& controller, double t, const std::string& what,
 }  // namespace
 
 ControllerSampling::ControllerSampling(const SystemModel& model, double start)
-    : model_(model), start_(start) {
+    : model_(model), start_(start), flows_(make_flows(model)) {
   if (!model.controllers.empty()) find_links();
 }
 
@@ -153,7 +152,8 @@ bool ControllerSampling::repeat_external(SystemState& state) const {
   return is_any;
 }
 
-bool ControllerSampling::take(SystemState& state, VectorX& work) {
+bool ControllerSampling::take(SystemState& state) {
+  flows_.clear();
   due_.clear();
   const double same = find_same_time(state.t, start_);
   for (std::size_t i = 0; i < model_.controllers.size(); ++i) {
@@ -175,7 +175,7 @@ bool ControllerSampling::take(SystemState& state, VectorX& work) {
   if (has_jump) {
     const Eigen::Index first = EnergyRows(model_).couplers;
     for (const Link link : links_) {
-      work[first + static_cast<Eigen::Index>(link)] +=
+      flows_.supplied[first + static_cast<Eigen::Index>(link)] +=
           calc_energy(link, after) - calc_energy(link, state);
     }
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
@@ -21,13 +22,13 @@ class ControllerSampling {
 
   /// Takes all due samples. Controllers sampled at the same time see the same
   /// state.
-  /// @param work in the rows of EnergyRows, to which changes of the energy in
-  /// the springs of position drives are added [J]
   /// @returns whether an input or its rate jumps
   /// @throws NumericalError naming the controller, the input and the time if it
   /// throws or writes a value that is not finite; `state` is then unchanged.
   /// Interrupted if it throws that.
-  bool take(SystemState& state, VectorX& work);
+  bool take(SystemState& state);
+  /// Changes of the energy in the springs of position drives by the last ones.
+  [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
 
   /// Makes the samples that controllers with an ExternalLaw took at the present
   /// time due again.
@@ -48,6 +49,7 @@ class ControllerSampling {
   const SystemModel& model_;
   double start_;  // [s]
   std::vector<Link> links_;
+  EnergyFlows flows_;
   std::vector<std::size_t> due_;
   SystemState seen_;
   std::vector<double> measured_;

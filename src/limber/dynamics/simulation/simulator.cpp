@@ -162,8 +162,7 @@ Checkpoint Simulator::save() {
                        "a run must continue identically from a checkpoint");
   Archive archive;
   parts_->limit.exchange_memory(archive);
-  std::vector<double> numbers = parts_->loop.save(parts_->state).numbers;
-  archive(numbers);
+  parts_->loop.save(archive, parts_->state);
   return {parts_->state.t, archive.take_numbers()};
 }
 
@@ -172,9 +171,7 @@ void Simulator::restore(const Checkpoint& checkpoint) {
                        "a run must continue identically from a checkpoint");
   Archive archive(checkpoint.numbers);
   parts_->limit.exchange_memory(archive);
-  Checkpoint inner{checkpoint.time, {}};
-  archive(inner.numbers);
-  parts_->loop.resume(inner, parts_->state);
+  parts_->loop.resume(archive, {}, parts_->state);
   parts_->show();
 }
 

@@ -39,7 +39,11 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
   add_period_warning(model, settings, state.t, job.statistics);
   TimeLoop loop(model, settings, state, job.statistics, job.refinement,
                 job.followed, job.check);
-  if (job.continuation.from) loop.resume(*job.continuation.from, state);
+  if (const auto& from = job.continuation.from) {
+    Archive archive(from->numbers);
+    job.continuation.keeper.exchange_outer(archive);
+    loop.resume(archive, from->log, state);
+  }
   try {
     loop.run(state, visit, job.progress, job.continuation.keeper);
   } catch (const NumericalError&) {
@@ -180,24 +184,6 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
   leave();
 }
 
-// Adds the data outside of the TimeLoop to checkpoints.
-Continuation add_memory(LinearLimit& limit, RoundingLimit& rounding,
-                        const Continuation& inner) {
-  Continuation outer = inner;
-  LIMBER_EXPECT(!inner.keeper.write_outer);
-  const auto exchange = [&limit, &rounding](Archive& archive) {
-    limit.exchange_memory(archive);
-    rounding.exchange_memory(archive);
-  };
-  outer.keeper.write_outer = exchange;
-  if (inner.from) {
-    Archive archive(inner.from->numbers);
-    exchange(archive);
-    outer.from->numbers = archive.take_rest();
-  }
-  return outer;
-}
-
 }  // namespace
 
 void run_once(const SystemModel& model, SystemState& state,
@@ -226,7 +212,12 @@ void run_once(const SystemModel& model, SystemState& state,
   const TimeLoop::Check check = [&](const SystemState& at) {
     limit.check(at, statistics.warnings);
   };
-  const Continuation whole = add_memory(limit, rounding, continuation);
+  LIMBER_EXPECT(!continuation.keeper.exchange_outer);
+  Continuation whole = continuation;
+  whole.keeper.exchange_outer = [&](Archive& archive) {
+    limit.exchange_memory(archive);
+    rounding.exchange_memory(archive);
+  };
   const Job job{settings, progress, statistics, whole,
                 followed, record,   check,      refinement};
   rounding.check(state, statistics.warnings);

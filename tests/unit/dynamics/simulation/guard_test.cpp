@@ -13,7 +13,7 @@
 #include "limber/dynamics/monitors/energy_growth_observer.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
-#include "limber/dynamics/simulation/work_budget.hpp"
+#include "limber/dynamics/stepping/work_budget.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"

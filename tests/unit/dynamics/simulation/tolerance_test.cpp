@@ -8,7 +8,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
-#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
 #include "limber/dynamics/system/interpolation.hpp"
 #include "support/chain.hpp"
 #include "support/sliding_masses.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "limber/common/records/archive.hpp"
 
 namespace limber::dynamics {
@@ -27,9 +29,17 @@ class ErrorBudget {
   }
 
   /// Of the next step [m].
-  [[nodiscard]] double allowed() const;
+  [[nodiscard]] double allowed() const {
+    if (span_ == 0.0) return error_;
+    const auto n = static_cast<double>(steps_);
+    const double even = steps_ > 0 ? done_ / (span_ * n) : 0.0;
+    return error_ * std::max(even, 0.03 / (n + 1.0));
+  }
   /// Counts a step of length h [s].
-  void count(double h);
+  void count(double h) {
+    done_ += h;
+    ++steps_;
+  }
   /// Saves or restores the history.
   void exchange_memory(Archive& archive) { archive(done_, steps_); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/damper_impulse.hpp"
+#include "limber/dynamics/stepping/damper_impulse.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Starts against dampers that a step is far too long to follow.
-#include "limber/dynamics/simulation/damper_impulse.hpp"
+#include "limber/dynamics/stepping/damper_impulse.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

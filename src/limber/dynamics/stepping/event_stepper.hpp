@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "limber/dynamics/equations/pair_forces.hpp"
@@ -12,9 +13,15 @@
 #include "limber/dynamics/monitors/event_observer.hpp"
 #include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
-#include "limber/dynamics/simulation/damper_impulse.hpp"
+#include "limber/dynamics/stepping/damper_impulse.hpp"
 
 namespace limber::dynamics {
+
+/// Work of loads and energy dissipated since the start.
+struct Losses {
+  double work = 0.0;        ///< [J]
+  double dissipated = 0.0;  ///< [J]
+};
 
 /// Takes steps, ends them at events of couplers and where contact begins or
 /// ends, with a tolerance also where drives reach or leave their effort limit,
@@ -66,23 +73,21 @@ class EventStepper {
   /// State at its beginning; stored if there are switches or steps may be
   /// reverted (`settings.tolerance` > 0).
   [[nodiscard]] const SystemState& before() const { return before_; }
-  /// Sums over all steps so far.
-  [[nodiscard]] const StepResult& totals() const { return totals_; }
-  /// Energies of totals() by what they belong to, without that of an impulse at
+  [[nodiscard]] const Losses& losses() const { return losses_; }
+  /// Energies of losses() by what they belong to, without that of an impulse at
   /// the start.
   [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
-  /// A pair whose impacts get longer steps than resolve them, once.
-  [[nodiscard]] std::optional<std::size_t> take_excess() {
-    return impacts_.take_excess();
-  }
+  /// Warns once of impacts that get longer steps than resolve them.
+  void add_warnings(std::vector<std::string>& warnings);
   /// The pair whose impacts shorten steps.
   [[nodiscard]] std::size_t impact_pair() const { return impacts_.fastest(); }
   /// Which pairs touch.
   [[nodiscard]] ContactStartObserver& touches() { return touches_; }
 
-  /// Approximately those of the last step's end, before its events.
-  [[nodiscard]] const SystemTerms& terms() const {
-    return integrator_->terms();
+  /// Approximately those of the last step's end; null if an event is there,
+  /// which invalidates them.
+  [[nodiscard]] const SystemTerms* terms() const {
+    return events_.size() == events_before_ ? &integrator_->terms() : nullptr;
   }
 
   /// Number of linear solves since the last call, including failed steps.
@@ -138,10 +143,11 @@ class EventStepper {
   bool conserves_impacts_ = false;
   bool keeps_before_ = false;
   SystemState before_;
-  double h_ = 0.0;  // of the attempted step [s]
-  int cut_ = 0;     // number of successive steps cut by events
+  double h_ = 0.0;                 // of the attempted step [s]
+  std::size_t events_before_ = 0;  // count before it
+  int cut_ = 0;                    // number of successive steps cut by events
   StepResult last_;
-  StepResult totals_;
+  Losses losses_;
   EnergyFlows last_flows_;
   EnergyFlows flows_;
 };

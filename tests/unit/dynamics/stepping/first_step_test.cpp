@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "limber/dynamics/simulation/simulation.hpp"
-#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/bushing.hpp"
 

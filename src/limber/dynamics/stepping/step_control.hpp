@@ -2,9 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/simulation/error_budget.hpp"
+#include "limber/dynamics/monitors/step_record.hpp"
+#include "limber/dynamics/stepping/error_budget.hpp"
+#include "limber/dynamics/system/oscillation.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -26,13 +30,26 @@ class StepControl {
   /// @param budget errors that steps may have
   /// @param longest step, the first one unless it is set [s]
   /// @param refinement factor of the limits, at most 1 [-]
+  /// @param oscillations of loads and commands
   StepControl(const ErrorBudget& budget, double longest,
-              double refinement = 1.0);
+              double refinement = 1.0,
+              std::vector<Oscillation> oscillations = {});
 
   /// Sets the length of the first step [s].
   void begin(double h) { h_ = std::min(h, longest_); }
   /// Length of the next step from `state`, at most `left` [s].
   [[nodiscard]] double propose(const SystemState& state, double left) const;
+  /// The next step from `state`: it also shows what does not appear in its
+  /// error, loads that are zero at both ends, or the same after a whole period,
+  /// and touches.
+  /// @param from the jump of loads before it, @param mark the one after it [s]
+  /// @param touch the longest step that finds touches [s]
+  [[nodiscard]] PlannedStep plan(const SystemState& state, double from,
+                                 double mark, double touch) const;
+  /// What steps of h [s] from t to `mark` [s] follow, as "load 'l' has a period
+  /// of 0.1 s, which they follow"; empty if they are shorter than that needs.
+  [[nodiscard]] std::string describe_oscillation(double t, double mark,
+                                                 double h) const;
   /// Whether a step of length h [s] with the error `error` [m] is accepted;
   /// sets the next length.
   [[nodiscard]] bool accepts(double h, double error);
@@ -50,7 +67,12 @@ class StepControl {
   }
 
  private:
+  [[nodiscard]] const Oscillation* find_oscillation(double t,
+                                                    double mark) const;
+
   ErrorBudget budget_;
+  std::vector<Oscillation> oscillations_;
+  double refinement_;     // [-]
   double longest_;        // [s]
   double most_rotation_;  // [rad]
   double h_;              // [s]

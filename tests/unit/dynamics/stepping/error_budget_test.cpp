@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/error_budget.hpp"
+#include "limber/dynamics/stepping/error_budget.hpp"
 
 #include <gtest/gtest.h>
 

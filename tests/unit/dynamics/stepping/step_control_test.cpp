@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
 
 #include <gtest/gtest.h>
 
@@ -130,6 +130,26 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
       settle(StepControl(ErrorBudget::each(1.0), 0.3, 0.25), resting), 0.075);
   EXPECT_DOUBLE_EQ(
       settle(StepControl(ErrorBudget::each(1.0), 0.3, 0.25), turning), 0.0025);
+}
+
+TEST(StepControl, PlansFourStepsToAMarkAndSixteenToAPeriod) {
+  const SystemState still = make_spinning(0.0);
+  const double never = 1e9;
+  const StepControl control(
+      ErrorBudget::each(1e-6), 1.0, 0.5,
+      {{.name = "load 'l'", .period = 0.8, .from = 4.0, .until = 6.0}});
+  const auto expect = [&](const PlannedStep& step, double h, StepCause cause) {
+    EXPECT_DOUBLE_EQ(step.length, h);
+    EXPECT_EQ(step.cause, cause);
+  };
+  expect(control.plan(still, 0.0, 100.0, never), 0.5, StepCause::given);
+  expect(control.plan(still, 0.0, 2.0, never), 0.25, StepCause::breakpoint);
+  expect(control.plan(still, 0.0, 10.0, never), 0.025, StepCause::oscillation);
+  expect(control.plan(still, 0.0, 2.0, 0.01), 0.005, StepCause::impact);
+  EXPECT_EQ(control.describe_oscillation(0.0, 10.0, 0.025),
+            "load 'l' has a period of 0.8 s, which they follow");
+  EXPECT_EQ(control.describe_oscillation(0.0, 10.0, 0.01), "");
+  EXPECT_EQ(control.describe_oscillation(0.0, 100.0, 0.025), "");
 }
 
 }  // namespace

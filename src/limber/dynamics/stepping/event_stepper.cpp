@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/event_stepper.hpp"
+#include "limber/dynamics/stepping/event_stepper.hpp"
 
 #include <fmt/format.h>
 
@@ -71,8 +71,8 @@ std::optional<DamperImpulse> EventStepper::start(SystemState& state, double h) {
   std::optional<DamperImpulse> impulse;
   if (is_implicit_) impulse = apply_damper_impulse(model_, h, state);
   if (impulse) {
-    totals_.dissipated += impulse->dissipated;
-    totals_.load_work += impulse->work;
+    losses_.dissipated += impulse->dissipated;
+    losses_.work += impulse->work;
     observer_.accept(state);
   }
   touches_.start(state, events_);
@@ -86,16 +86,14 @@ void EventStepper::cross_jump(const SystemState& state, double h) {
 }
 
 void EventStepper::add_last() {
-  totals_.iterations += last_.iterations;
-  totals_.factorizations += last_.factorizations;
-  totals_.load_work += last_.load_work;
-  totals_.dissipated += last_.dissipated;
+  losses_.work += last_.load_work;
+  losses_.dissipated += last_.dissipated;
   flows_ += last_flows_;
 }
 
 void EventStepper::add_between_steps(const EnergyFlows& flows) {
-  totals_.load_work += flows.supplied.sum();
-  totals_.dissipated += flows.dissipated.sum();
+  losses_.work += flows.supplied.sum();
+  losses_.dissipated += flows.dissipated.sum();
   flows_ += flows;
 }
 
@@ -184,6 +182,7 @@ void EventStepper::advance(SystemState& state, double h, double end) {
 }
 
 void EventStepper::attempt(SystemState& state, double h, double end) {
+  events_before_ = events_.size();
   h_ = impacts_.limit(h, touches_);
   touches_.check_step(h_, state.t);
   touches_.mark_apart(state);
@@ -217,7 +216,7 @@ void EventStepper::pass(const EventObserver::Crossing& crossing,
   const EventObserver::Change change =
       observer_.pass(crossing.index, state, events_);
   if (change.coupler >= 0) {
-    totals_.dissipated += change.energy_lost;
+    losses_.dissipated += change.energy_lost;
     flows_.dissipated[EnergyRows(model_).couplers + change.coupler] +=
         change.energy_lost;
   }
@@ -268,7 +267,6 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
     return;
   }
   ++cut_;
-  const std::size_t events = events_.size();
   int iterations = 1;
   if (touch && touch->fraction == fraction) {
     iterations = settle_touch(*touch, state, nominal_h);
@@ -282,7 +280,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
     }
     touches_.accept(before_, state);
   }
-  for (std::size_t i = events; i < events_.size(); ++i) {
+  for (std::size_t i = events_before_; i < events_.size(); ++i) {
     events_[i].iterations = iterations;
   }
 }
@@ -359,13 +357,22 @@ int EventStepper::settle_touch(const ContactStartObserver::Crossing& crossing,
   return repeats;
 }
 
+void EventStepper::add_warnings(std::vector<std::string>& warnings) {
+  const auto pair = impacts_.take_excess();
+  if (!pair) return;
+  warnings.push_back(fmt::format(
+      "contact '{}': a step was divided into {} parts for the impacts in "
+      "it, and its remainder was taken in one: their restitution may be "
+      "wrong; use shorter steps, softer contacts or fewer impact_steps",
+      model_.pairs[*pair].name, kMostParts));
+}
+
 void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   integrator_->exchange_memory(archive, state);
   observer_.exchange_memory(archive);
   touches_.exchange_memory(archive);
   impacts_.exchange_memory(archive);
-  archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
-          totals_.dissipated, flows_);
+  archive(cut_, losses_.work, losses_.dissipated, flows_);
   if (keeps_before_) before_ = state;
 }
 

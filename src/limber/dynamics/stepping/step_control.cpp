@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/stepping/step_control.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
@@ -17,6 +20,10 @@ constexpr double kSafety = 0.8;
 constexpr double kWorthGrowing = 1.5;
 constexpr double kMostGrowth = 4.0;
 constexpr double kMostShrinking = 0.1;
+constexpr double kFewestStepsToAMark = 4.0;
+// The mean force in a step is then right to 1.3 % of the amplitude, and the
+// estimate of a step's error sees the force change.
+constexpr double kFewestStepsToAPeriod = 16.0;
 constexpr double kMostRotation = 1.0;    // [rad]
 constexpr double kSmallFraction = 1e-3;  // of a body's size, for differences
 
@@ -57,8 +64,11 @@ SystemState continue_motion(const SystemModel& model, const SystemState& state,
 }  // namespace
 
 StepControl::StepControl(const ErrorBudget& budget, double longest,
-                         double refinement)
+                         double refinement,
+                         std::vector<Oscillation> oscillations)
     : budget_(budget),
+      oscillations_(std::move(oscillations)),
+      refinement_(refinement),
       longest_(refinement * longest),
       most_rotation_(refinement * kMostRotation),
       h_(longest_) {}
@@ -72,6 +82,42 @@ double StepControl::propose(const SystemState& state, double left) const {
   // Two equal steps instead of a full one and a short one.
   if (h >= left) return left;
   return 2.0 * h > left ? 0.5 * left : h;
+}
+
+PlannedStep StepControl::plan(const SystemState& state, double from,
+                              double mark, double touch) const {
+  PlannedStep limit{(mark - from) / kFewestStepsToAMark, StepCause::breakpoint};
+  const auto lower = [&](double length, StepCause cause) {
+    if (length < limit.length) limit = {length, cause};
+  };
+  if (const Oscillation* fastest = find_oscillation(state.t, mark)) {
+    lower(fastest->period / kFewestStepsToAPeriod, StepCause::oscillation);
+  }
+  lower(touch, StepCause::impact);
+  limit.length *= refinement_;
+  const double left = mark - state.t;
+  const double proposed = propose(state, left);
+  if (limit.length < proposed) return limit;
+  if (proposed >= left) return {proposed, StepCause::breakpoint};
+  if (proposed < h_) return {proposed, StepCause::rotation};
+  return {proposed,
+          proposed >= longest_ ? StepCause::given : StepCause::tolerance};
+}
+
+// The fastest one from t to the mark.
+const Oscillation* StepControl::find_oscillation(double t, double mark) const {
+  return find_fastest(oscillations_, 0.5 * (t + mark));
+}
+
+std::string StepControl::describe_oscillation(double t, double mark,
+                                              double h) const {
+  const Oscillation* fastest = find_oscillation(t, mark);
+  if (!fastest ||
+      h < 0.5 * refinement_ * fastest->period / kFewestStepsToAPeriod) {
+    return "";
+  }
+  return fmt::format("{} has a period of {:.3g} s, which they follow",
+                     fastest->name, fastest->period);
 }
 
 bool StepControl::accepts(double h, double error) {
