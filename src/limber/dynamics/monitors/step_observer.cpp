@@ -19,12 +19,13 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 
 }  // namespace
 
-StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator)
+StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator,
+                           SystemTerms& scratch)
     : model_(model),
       energy_observer_(model, integrator),
       deflection_(model),
       limits_(model),
-      terms_(make_terms(model)),
+      terms_(scratch),
       stride_(leaves_terms(model, integrator) ? 1 : kStride) {}
 
 const SystemTerms& StepObserver::evaluate(const SystemState& state, Side side) {

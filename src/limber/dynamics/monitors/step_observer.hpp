@@ -21,7 +21,9 @@ namespace limber::dynamics {
 ///            evaluation; their steps resolve all motion.
 class StepObserver {
  public:
-  StepObserver(const SystemModel& model, IntegratorKind integrator);
+  /// @param scratch for terms, which others may use between calls
+  StepObserver(const SystemModel& model, IntegratorKind integrator,
+               SystemTerms& scratch);
 
   /// @param terms at `state`
   /// @param taken by an impulse just before [J]
@@ -68,7 +70,7 @@ class StepObserver {
   EnergyObserver energy_observer_;
   DeflectionObserver deflection_;
   EffortLimitObserver limits_;
-  SystemTerms terms_;
+  SystemTerms& terms_;
   long stride_;
   long steps_ = 0;
 };

@@ -10,7 +10,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/simulation/failure_diagnosis.hpp"
-#include "limber/dynamics/system/interpolation.hpp"
+#include "limber/dynamics/simulation/output_state.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -34,10 +34,9 @@ RunObservers::RunObservers(const SystemModel& model,
       peaks_(model, followed,
              choose_envelope_edges(start.t, settings.output_times,
                                    settings.end_time)),
-      step_observer_(model, settings.integrator),
+      step_observer_(model, settings.integrator, stepper.scratch()),
       contacts_(model, settings.integrator,
                 settings.tolerance > 0.0 ? 0.0 : settings.step),
-      terms_(make_terms(model)),
       sound_(start),
       beside_(start) {
   steps_.of_body.resize(model.bodies.size());
@@ -50,10 +49,11 @@ RunObservers::RunObservers(const SystemModel& model,
 }
 
 void RunObservers::start(const SystemState& state, double h, double lost) {
-  calc_terms(model_, state, Side::right, terms_);
-  clash_ = find_start_clash(model_, state, terms_, h);
+  SystemTerms& terms = stepper_.scratch();
+  calc_terms(model_, state, Side::right, terms);
+  clash_ = find_start_clash(model_, state, terms, h);
   peaks_.start(state);
-  step_observer_.start(state, terms_, lost, statistics_.events);
+  step_observer_.start(state, terms, lost, statistics_.events);
   contacts_.include(state, stepper_.touches(), step_observer_,
                     stepper_.flows());
 }
@@ -163,7 +163,7 @@ void RunObservers::visit_within(const SystemState& state,
       continue;
     }
     const double s = (t - begin.t) / h;
-    interpolate(model_, begin, state, s, beside_);
+    find_output_state(model_, begin, state, s, beside_);
     beside_.t = t;
     // Powers are assumed linear over a step.
     const double rise = 0.5 * s * s * h;
@@ -187,9 +187,10 @@ void RunObservers::separate_contact(const SystemState& state, long solves) {
     body.p_WB.array() += aside;
   }
   try {
-    calc_terms(model_, state, Side::right, terms_);
+    SystemTerms& terms = stepper_.scratch();
+    calc_terms(model_, state, Side::right, terms);
     static_cast<void>(timer_.lap());
-    apply_pairs(model_, beside_, now_of(beside_), terms_);
+    apply_pairs(model_, beside_, now_of(beside_), terms);
   } catch (const NumericalError&) {  // the next step reports it
     return;
   }

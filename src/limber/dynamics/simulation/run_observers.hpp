@@ -94,7 +94,6 @@ class RunObservers {
   ImpactObserver contacts_;
   StepRecord steps_;
   StepTimer timer_;
-  SystemTerms terms_;
   SystemState sound_;       // at the last look at an energy not too much
   SystemState beside_;      // one that is not of the run
   std::string clash_;       // message on initial velocities against dampers

@@ -14,6 +14,7 @@
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
+#include "limber/dynamics/newton/constraint_wrenches.hpp"
 #include "limber/dynamics/simulation/explicit_limit.hpp"
 #include "limber/dynamics/simulation/settings_check.hpp"
 #include "limber/dynamics/simulation/single_run.hpp"
@@ -55,6 +56,7 @@ struct Simulator::Parts {
                limit.check(at, statistics.warnings);
              }),
         rounding(model) {
+    set_constraint_wrenches(model, state);
     show();
     rounding.check(shown(), statistics.warnings);
   }

@@ -39,6 +39,8 @@ class StepTaker {
   /// Of whole steps, the next or the last; 0 before the first [s].
   [[nodiscard]] double length() const { return h_; }
   void exchange_memory(Archive& archive);
+  /// Whether steps are as long as a tolerance allows.
+  [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
 
  private:
   void take_equal(SystemState& state, ProgressPulse& pulse);
@@ -51,7 +53,6 @@ class StepTaker {
   void count_fraction(const SystemState& state);
   [[nodiscard]] PlannedStep plan_free(const SystemState& state);
   [[nodiscard]] std::string describe_failure(const SystemState& state) const;
-  [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
 
   const SystemModel& model_;
   const SimulationSettings& settings_;

@@ -7,6 +7,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/newton/constraint_wrenches.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 
 namespace limber::dynamics {
@@ -70,9 +71,10 @@ bool TimeLoop::run_to(double t, SystemState& state,
 
 // Samples at the start, before the first step.
 void TimeLoop::begin(SystemState& state) {
+  set_constraint_wrenches(model_, state);
   observers_.check(state, 0.0);
   sampling_.skip_until(state);
-  take_samples(state);
+  if (take_samples(state)) set_constraint_wrenches(model_, state);
 }
 
 void TimeLoop::take_step(SystemState& state) {
@@ -120,10 +122,15 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
   has_started_ = true;
 }
 
-void TimeLoop::leave_breakpoint(const SystemState& state) {
-  at_jump_ |= breakpoints_.next().is_jump;
+void TimeLoop::leave_breakpoint(SystemState& state) {
+  const Breakpoint& here = breakpoints_.next();
+  at_jump_ |= here.is_jump;
+  if (here.is_output) observers_.visit(state);
+  // Peaks and outputs of the next step need what holds joints at its begin.
+  if (here.is_jump || (at_jump_ && steps_.is_adaptive())) {
+    set_constraint_wrenches(model_, state);
+  }
   if (at_jump_) observers_.cross_jump(state);
-  if (breakpoints_.next().is_output) observers_.visit(state);
   breakpoints_.pass();
 }
 

@@ -71,7 +71,7 @@ class TimeLoop {
   void begin(SystemState& state);
   void take_step(SystemState& state);
   void enter_breakpoint(SystemState& state);
-  void leave_breakpoint(const SystemState& state);
+  void leave_breakpoint(SystemState& state);
   bool take_samples(SystemState& state);
   [[nodiscard]] bool is_refresh_due() const;
   void refresh();

@@ -77,6 +77,8 @@ class EventStepper {
   /// Energies of losses() by what they belong to, without that of an impulse at
   /// the start.
   [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
+  /// For terms at any state, until the next step.
+  [[nodiscard]] SystemTerms& scratch() { return terms_; }
   /// Warns once of impacts that get longer steps than resolve them.
   void add_warnings(std::vector<std::string>& warnings);
   /// The pair whose impacts shorten steps.
