@@ -10,6 +10,7 @@
 #include "limber/dynamics/equations/joint_state.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "places.hpp"
 
 /// Trees of rigid links on ideal joints against MuJoCo's, in joint coordinates
 /// (tests/data/ideal_joints/README.md).
