@@ -29,7 +29,8 @@ struct CouplerMemory {
   LatchStatus latch = LatchStatus::open;
   Pose X_FM;  ///< rest pose of a closed latch [-], [m]
   /// Of an ideal joint, that of its constraint, as CouplerResponse::wrench
-  /// [N, N m]; and its last solution, at a time within the last step.
+  /// [N, N m]; of a stiff one what acts beside its stiffness, at outputs within
+  /// a step; and the last solution, at a time within the last step.
   Vector6 constraint_wrench = Vector6::Zero();
   Vector6 solved_wrench = Vector6::Zero();
   double solved_time = -kInfinity;  ///< [s]

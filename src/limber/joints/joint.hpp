@@ -18,11 +18,12 @@ namespace limber::joints {
 /// free coordinates.
 ///
 /// Equation   the sum of the wrench of `constraint` and of force * gradient of
-///            each element, with the coordinates of AxisCoordinate. Of an ideal
-///            joint the wrench is CouplerMemory::constraint_wrench instead, and
-///            its deflection (find_constraint_gap) is zero: the stiffness of
-///            `constraint` tells which directions are constrained, and replaces
-///            them only where analyses make stiff joints of ideal ones.
+///            each element, with the coordinates of AxisCoordinate, and of
+///            CouplerMemory::constraint_wrench. Of an ideal joint the latter
+///            stands for that of `constraint`, and its deflection
+///            (find_constraint_gap) is zero: the stiffness of `constraint`
+///            tells which directions are constrained, and acts only where
+///            analyses make stiff joints of ideal ones.
 class Joint : public WithoutTriggers {
  public:
   using Constraint = std::variant<Bushing, UniversalConstraint>;
