@@ -29,8 +29,7 @@ SimulationSettings check(const SystemModel& model, const SystemState& state,
                          SimulationStatistics& statistics) {
   check_settings(model, state, settings);
   add_start_warnings(model, state, statistics);
-  SimulationSettings limited =
-      limit_step(model, state, settings, statistics);
+  SimulationSettings limited = limit_step(model, state, settings, statistics);
   add_period_warning(model, limited, state.t, statistics);
   return limited;
 }
