@@ -13,8 +13,8 @@ namespace limber::dynamics {
 /// The model with stiff joints in place of ideal ones, for analyses whose
 /// unknowns are positions alone; none if it has no ideal joint. Where their
 /// stiffness is a default, they add 1 / kIdealStiffnessRatio to the flexibility
-/// of the stiffer side.
-/// They add to CouplerMemory::constraint_wrench of a state.
+/// of the stiffer side. Their stiffness acts beside the wrench that a state has
+/// for the ideal ones (CouplerMemory::constraint_wrench).
 [[nodiscard]] std::optional<SystemModel> replace_ideal_joints(
     const SystemModel& model);
 

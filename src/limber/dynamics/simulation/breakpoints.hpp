@@ -28,9 +28,9 @@ struct Breakpoint {
 
 /// All breakpoints after `start` [s], increasing; the last is the end. Times
 /// that differ by round-off only are merged.
+/// @param has_outputs whether outputs are breakpoints
 /// @throws InputError for steps or samples of controllers below the resolution
-/// of the time, or more than 1e7 samples. @param has_outputs whether outputs
-/// are breakpoints
+/// of the time, or more than 1e7 samples.
 [[nodiscard]] std::vector<Breakpoint> find_breakpoints(
     const SystemModel& model, double start, const SimulationSettings& settings,
     bool has_outputs = true);
