@@ -23,6 +23,10 @@ using joints::PairBody;
 // Least radius of the points that carry the wrench, of the solids' size [-].
 constexpr double kLeastRadius = 1e-2;
 
+// Motion along the normal over all of it, where the correction of the elastic
+// wrench over a step turns away from the normal [-].
+constexpr double kAcross = 1e-3;
+
 constexpr std::size_t kPoints = PatchPoints::kCount;
 
 // Of places of B against A over a step.
@@ -82,11 +86,15 @@ void PatchPair::check(int modes_A, int modes_B) const {
   finder_->check(modes_A, modes_B);
 }
 
-// A wrench that does minus the rise of the energy along a motion.
-Vector6 PatchPair::correct(const Vector6& elastic_W, const Vector6& motion,
-                           double rise) const {
+// A wrench that does minus the rise of the energy along a motion. What the
+// wrench lacks acts along the normal, as the pressure does, unless nearly all
+// of the motion is across it.
+Vector6 PatchPair::correct(const Vector6& elastic_W, const Patch& patch,
+                           const Vector6& motion, double rise) const {
   Vector6 weighted = motion;
   weighted.tail<3>() *= size_ * size_;
+  weighted =
+      PatchLaw::find_approach(patch) * motion + kAcross * kAcross * weighted;
   const double length = motion.dot(weighted);
   if (!(length > 0.0)) return elastic_W;
   return elastic_W - (rise + elastic_W.dot(motion)) / length * weighted;
@@ -252,7 +260,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     PatchResponse response =
         law_.evaluate({.patch = touch.patch,
                        .elastic_W = correct(-fraction * touch.patch.gradient_W,
-                                            motions[i], rise),
+                                            touch.patch, motions[i], rise),
                        .twist_W = motions[i] / step.times.h,
                        .all = all,
                        .slip = find_slip(parts, before),
