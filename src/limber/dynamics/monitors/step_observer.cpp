@@ -19,9 +19,10 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 
 }  // namespace
 
-StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator)
+StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator,
+                           double h)
     : model_(model),
-      energy_observer_(model, integrator),
+      energy_observer_(model, integrator, h),
       deflection_(model),
       limits_(model),
       terms_(make_terms(model)),

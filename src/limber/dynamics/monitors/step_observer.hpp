@@ -21,7 +21,8 @@ namespace limber::dynamics {
 ///            evaluation; their steps resolve all motion.
 class StepObserver {
  public:
-  StepObserver(const SystemModel& model, IntegratorKind integrator);
+  /// @param h step of the run, 0 with a tolerance [s]
+  StepObserver(const SystemModel& model, IntegratorKind integrator, double h);
 
   /// @param terms at `state`
   /// @param taken by an impulse just before [J]
