@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
+#include "limber/contact/law/hertz_law.hpp"
 #include "limber/contact/make_contact.hpp"
 #include "limber/contact/shapes/mesh_surface.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -24,10 +27,11 @@ constexpr double kRadius = 0.01;  // [m]
 constexpr double kMass = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius *
                          kRadius * 7800.0;  // [kg]
 
-Shape make_meshed_ball() {
-  return {std::make_shared<const MeshSurface>(
-              test::make_ball_surface(kRadius, 3, true)),
-          {}};
+// @param residual flexibility [m/N]
+Shape make_meshed_ball(double residual = 0.0) {
+  auto surface = test::make_ball_surface(kRadius, 3, true);
+  surface.residual.setConstant(residual);
+  return {std::make_shared<const MeshSurface>(surface), {}};
 }
 
 struct Pair {
@@ -90,6 +94,40 @@ TEST(SurfaceImpact, OfAMeshedBallAndABallIsHertzs) {
   EXPECT_NEAR(*contact.restitution(), 1.0, 3e-3);
   EXPECT_LT((pair.find_momentum() - momentum).norm(), 1e-12 * momentum.norm());
   EXPECT_NEAR(calc_energy(pair.model, pair.state).total() / before, 1.0, 5e-3);
+}
+
+// Of Hertz's law and the residual flexibility in series, which the area and the
+// depth in it do not contain.
+TEST(SurfaceImpact, IsRecordedByTheDepthAndAreaOfTheSurfacesAlone) {
+  const double modulus = 2.1e11 / (2.0 * (1.0 - 0.09));
+  const double R_e = 0.5 * kRadius;
+  const double k = 4.0 / 3.0 * modulus * std::sqrt(R_e);
+  const Vector3 way =
+      (2.0 * kRadius + 1e-6) * Vector3(0.3, -0.5, 0.7).normalized();
+  for (const double residual : {2e-9, 2e-7}) {
+    const auto peak =
+        HertzLaw({k, residual}).find_state_of_energy(0.25 * kMass);
+    const double fraction = peak.residual_energy / peak.energy();
+    for (const bool is_ball_first : {false, true}) {
+      const Shape ball{Sphere{kRadius}, {}};
+      const Shape mesh = make_meshed_ball(residual);
+      Pair pair(is_ball_first ? ball : mesh, is_ball_first ? mesh : ball, {},
+                way, 1.0);
+      const RunRecord record = pair.run(1e-3, 1e-5);
+      ASSERT_EQ(record.contacts.size(), 1U);
+      const auto& contact = record.contacts[0];
+      EXPECT_NEAR(contact.peak_force / peak.force, 1.0, 1e-2);
+      EXPECT_NEAR(contact.peak_depth / peak.hertz_depth, 1.0, 1e-2);
+      EXPECT_NEAR(contact.peak_depth_over_radius / (peak.hertz_depth / R_e),
+                  1.0, 1e-2);
+      const bool is_warned = std::ranges::any_of(
+          pair.statistics.warnings, [](const std::string& text) {
+            return text.find("that the modes leave out") != std::string::npos;
+          });
+      EXPECT_EQ(is_warned, fraction > 0.75);
+      EXPECT_EQ(pair.statistics.warnings.size(), is_warned ? 1U : 0U);
+    }
+  }
 }
 
 }  // namespace

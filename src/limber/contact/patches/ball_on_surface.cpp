@@ -115,8 +115,9 @@ Patch BallOnSurface::press(const PairBody& body,
   const Vector3 n = is_surface_A_ ? out_W : Vector3(-out_W);
   out.touches = true;
   out.exponent = 1.5;
-  out.depth = depth;
+  out.depth = pressed.hertz_depth;
   out.energy = pressed.energy();
+  out.series_energy = pressed.residual_energy;
   out.centre_W =
       body.p_WB + body.R_WB * hit.nearest.point - 0.5 * depth * out_W;
   out.gradient_W.head<3>() = -pressed.force * n;

@@ -11,20 +11,6 @@
 namespace limber::contact {
 namespace {
 
-// Rotations about which a body is round move no surface: rolling is free.
-Matrix6 find_pressure_matrix(const Patch& patch) {
-  const double N = patch.load();
-  const Vector3 n = patch.normal_W();
-  const Matrix3 rotation = skew(n);
-  const Matrix3 rocking = N * rotation * patch.spread_W * rotation.transpose();
-  const Matrix3 moving = patch.turns_A_W * patch.turns_B_W;
-  Matrix6 D = Matrix6::Zero();
-  D.topLeftCorner<3, 3>() = N * n * n.transpose();
-  D.bottomRightCorner<3, 3>() = 0.5 * (moving * rocking * moving.transpose() +
-                                       moving.transpose() * rocking * moving);
-  return D;
-}
-
 // Of Hertz's area, 2/3 (a / r_e)^2 with r_e = 0.943 sqrt(0.4) a.
 constexpr double kSpinRatio = 1.875;
 // The same with the r_e of a point, 3 pi a / 16, a^2 = 5/2 tr S.
@@ -108,8 +94,21 @@ PatchLaw::Rate PatchLaw::find_rate(const PatchMotion& all) const {
   return {s, -0.5 * s / square};
 }
 
+// Rotations about which a body is round move no surface: rolling is free.
+Matrix6 PatchLaw::find_approach(const Patch& patch) {
+  const Vector3 n = patch.normal_W();
+  const Matrix3 rotation = skew(n);
+  const Matrix3 rocking = rotation * patch.spread_W * rotation.transpose();
+  const Matrix3 moving = patch.turns_A_W * patch.turns_B_W;
+  Matrix6 P = Matrix6::Zero();
+  P.topLeftCorner<3, 3>() = n * n.transpose();
+  P.bottomRightCorner<3, 3>() = 0.5 * (moving * rocking * moving.transpose() +
+                                       moving.transpose() * rocking * moving);
+  return P;
+}
+
 double PatchLaw::find_square(const Patch& patch, const Vector6& twist_W) {
-  return twist_W.dot(find_pressure_matrix(patch) * twist_W);
+  return patch.load() * twist_W.dot(find_approach(patch) * twist_W);
 }
 
 // -s D twist, D of pressure along the normal; with d = D twist and vv = d .
@@ -119,7 +118,7 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Patch& patch = in.patch;
   const double N = in.all.load;
   const Vector3 n = patch.normal_W();
-  const Matrix6 D = find_pressure_matrix(patch);
+  const Matrix6 D = patch.load() * find_approach(patch);
   const Vector6 d = D * in.twist_W;
   const auto [s, slope] = find_rate(in.all);
   if (s == 0.0) return;

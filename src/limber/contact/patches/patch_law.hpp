@@ -47,15 +47,16 @@ struct PatchResponse {
 /// Damping and friction of a patch, whose elastic forces follow from its
 /// potential.
 ///
-/// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
-///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
-///            sum W / m) over all patches of the pair, or the requested damping
-///            for, the normal force >= 0; friction of LoadShells with the load
-///            N ~ d^p of the patch's exponent and k = p / (p + 1) N^2 / W; r_e
-///            = 0.943 sqrt(tr S) of a round patch, 0.866 of a line; about n the
-///            stiffness is 1.875 G_r / G* times as large, which is right under
-///            Hertz's pressure and 25 % high for a round flat; of a point r_e =
-///            3 pi a / 16 and 512 / (27 pi^2) G_r / G*; resist_rolling
+/// Equation   damping -s D twist, D = N P, P = (n n', -n x S n x) of the
+///            pressure along the normal, s = beta / sqrt(sum twist . D twist /
+///            sum N + 2 sum W / m) over all patches of the pair, or the
+///            requested damping for, the normal force >= 0; friction of
+///            LoadShells with the load N ~ d^p of the patch's exponent and k =
+///            p / (p + 1) N^2 / W; r_e = 0.943 sqrt(tr S) of a round patch,
+///            0.866 of a line; about n the stiffness is 1.875 G_r / G* times as
+///            large, which is right under Hertz's pressure and 25 % high for a
+///            round flat; of a point r_e = 3 pi a / 16 and 512 / (27 pi^2) G_r
+///            / G*; resist_rolling
 /// Source     [@hunt1975] with find_restitution_factor; kappa of [@mindlin1949]
 /// Limits     one shell of all patches but points: right for flats, whose
 ///            stiffness is constant
@@ -85,6 +86,9 @@ class PatchLaw {
   };
   [[nodiscard]] PatchResponse evaluate(const Input& in) const;
 
+  /// P of a patch: motion . P motion is the mean square of its motion along the
+  /// normal, weighted by the pressure [-; m^2].
+  [[nodiscard]] static Matrix6 find_approach(const Patch& patch);
   /// twist . D twist of a patch [N m^2/s^2].
   [[nodiscard]] static double find_square(const Patch& patch,
                                           const Vector6& twist_W);

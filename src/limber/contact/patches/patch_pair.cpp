@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -23,6 +24,13 @@ using joints::PairBody;
 // Least radius of the points that carry the wrench, of the solids' size [-].
 constexpr double kLeastRadius = 1e-2;
 
+// Motion along the normal over all of it, where the correction of the elastic
+// wrench over a step turns away from the normal [-].
+constexpr double kAcross = 1e-3;
+
+// Round-off of places and of what is found from them, of the places [-].
+constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+
 constexpr std::size_t kPoints = PatchPoints::kCount;
 
 // Of places of B against A over a step.
@@ -37,6 +45,18 @@ std::array<Vector3, kPoints> find_ways(
                find_position(step.begin.A, points[i].on_A));
   }
   return ways;
+}
+
+// Of places of both bodies in a gap or a way [m].
+double find_rounding(const PairBodies& bodies, double size) {
+  return kRounding * (size + bodies.A.p_WB.norm() + bodies.B.p_WB.norm());
+}
+
+// What an energy balance lacks, but for what may be round-off, which over a
+// small motion would be a large force.
+double drop_rounding(double lack, double rounding) {
+  const double square = lack * lack;
+  return square > 0.0 ? lack * square / (square + rounding * rounding) : 0.0;
 }
 
 // Against the slip of a step, so that friction's springs do not keep more than
@@ -82,14 +102,21 @@ void PatchPair::check(int modes_A, int modes_B) const {
   finder_->check(modes_A, modes_B);
 }
 
-// A wrench that does minus the rise of the energy along a motion.
-Vector6 PatchPair::correct(const Vector6& elastic_W, const Vector6& motion,
-                           double rise) const {
+// A wrench that does minus the rise of the energy along a motion. What the
+// wrench lacks acts along the normal, as the pressure does, unless nearly all
+// of the motion is across it.
+Vector6 PatchPair::correct(const Vector6& elastic_W, const Patch& patch,
+                           const Vector6& motion, double rise,
+                           double rounding) const {
   Vector6 weighted = motion;
   weighted.tail<3>() *= size_ * size_;
+  weighted =
+      PatchLaw::find_approach(patch) * motion + kAcross * kAcross * weighted;
   const double length = motion.dot(weighted);
   if (!(length > 0.0)) return elastic_W;
-  return elastic_W - (rise + elastic_W.dot(motion)) / length * weighted;
+  const double lack =
+      drop_rounding(rise + elastic_W.dot(motion), patch.load() * rounding);
+  return elastic_W - lack / length * weighted;
 }
 
 // Patches that only the bodies of an end of a step have.
@@ -240,6 +267,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     all.square += PatchLaw::find_square(touch.patch, motion / step.times.h);
     motions[i++] = motion;
   }
+  const double rounding = find_rounding(step.middle, size_);
   i = 0;
   for (const PatchTouch& touch : touches) {
     const joints::PairPart* first = step.at_begin.find_part(touch.index);
@@ -249,20 +277,21 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     const PatchMemory before = load_patch(find_slot(memory, touch.index));
     const PairBodies parts{last ? last->A : touch.A, last ? last->B : touch.B};
     const double fraction = i < of_middle ? 1.0 : 0.5;
-    PatchResponse response =
-        law_.evaluate({.patch = touch.patch,
-                       .elastic_W = correct(-fraction * touch.patch.gradient_W,
-                                            motions[i], rise),
-                       .twist_W = motions[i] / step.times.h,
-                       .all = all,
-                       .slip = find_slip(parts, before),
-                       .way_by_motion = 2.0});
+    PatchResponse response = law_.evaluate(
+        {.patch = touch.patch,
+         .elastic_W = correct(-fraction * touch.patch.gradient_W, touch.patch,
+                              motions[i], rise, rounding),
+         .twist_W = motions[i] / step.times.h,
+         .all = all,
+         .slip = find_slip(parts, before),
+         .way_by_motion = 2.0});
     // What friction takes from the bodies and its springs do not keep.
     const double kept = last != nullptr ? last->friction_energy : 0.0;
     const double lost = law_.find_energy(before.friction) - kept -
                         step.times.h * response.friction_power;
-    response.wrench.wrench_W.head<3>() +=
-        find_force_of_gain(response, motions[i], -lost);
+    response.wrench.wrench_W.head<3>() += find_force_of_gain(
+        response, motions[i],
+        drop_rounding(-lost, response.friction_W.norm() * rounding));
     place_points(touch.patch).set(response.wrench, kPoints * i++, out);
     const double rubbed = std::max(lost, 0.0) / step.times.h;
     out.rubbed += rubbed;

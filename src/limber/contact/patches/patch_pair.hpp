@@ -17,9 +17,12 @@ namespace limber::contact {
 ///
 /// Equation   the energies of PatchFinder; PatchLaw; over a step of the
 /// energy-conserving
-///            scheme the elastic wrench w at its middle, corrected along the
-///            relative motion m by -(W_1 - W_0 + w . m) N m / (m' N m), N =
-///            diag(1, L^2) with the solids' size L
+///            scheme the elastic wrench w at its middle, corrected for the
+///            relative motion m by -(W_1 - W_0 + w . m) N m / (m' N m), N = P +
+///            1e-6 diag(1, L^2) with PatchLaw's P and the solids' size L, so
+///            that it has nearly nothing across the normal; what may be
+///            round-off of places is not corrected: of a body at rest it would
+///            be a large force
 /// Source     docs/theory/contact_laws.md
 /// Limits     two separate places of contact of one part, such as a plate with
 ///            feet, are one patch; parts of a surface are springs side by side:
@@ -81,8 +84,9 @@ class PatchPair final : public joints::PairInteraction,
                    const joints::PairResponse& at_bodies,
                    PatchTouches& touches) const;
   [[nodiscard]] double find_energy(const joints::PairBodies& bodies) const;
-  [[nodiscard]] Vector6 correct(const Vector6& elastic_W, const Vector6& motion,
-                                double rise) const;
+  [[nodiscard]] Vector6 correct(const Vector6& elastic_W, const Patch& patch,
+                                const Vector6& motion, double rise,
+                                double rounding) const;
   [[nodiscard]] Nearest find_nearest_parts(
       const joints::PairBodies& bodies) const;
   [[nodiscard]] PatchPoints place_points(const Patch& patch) const;

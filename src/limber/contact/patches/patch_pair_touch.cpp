@@ -174,11 +174,13 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     reading.depth = std::max(reading.depth, patch.depth);
     // Of a round flat, or a ball, with this force and energy.
     const double p = patch.exponent;
-    const double depth = (p + 1.0) * patch.energy / elastic;
+    const double depth =
+        (p + 1.0) * (patch.energy - patch.series_energy) / elastic;
     const double modulus = finder_->modulus(touch.index);
     reading.area +=
         std::numbers::pi * std::pow(p * elastic / (2.0 * modulus * depth), 2);
     reading.energy += patch.energy + response.energy;
+    reading.series_energy += patch.series_energy;
     reading.slips = reading.slips || response.slips;
     ++reading.points;
   }

@@ -96,6 +96,7 @@ Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,
     }
     // At the end of the change, to its second order.
     patch.energy = energy + 0.5 * (gradient + last).dot(change);
+    patch.series_energy = 0.5 * f.dot(R * f);
     // Where A's own layer deflects, as B's does.
     patch.centre_W -= of_A * f;
     const Eigen::Matrix<double, 6, 3> coupling = patch.hessian_W.leftCols<3>();

@@ -183,10 +183,17 @@ std::optional<double> ContactStartObserver::find_touch_fraction(
     fraction += sure;
     interpolate(model_, before, after, fraction, within_);
     clearance = find_clearance(observed, within_);
-    // Two bodies that have just separated are still close.
-    const bool overlaps =
-        clearance <= 0.0 && find_touch(observed, within_).depth > 0.0;
-    if (clearance > none || overlaps) least = 0.0;
+    // Two bodies that have just separated are still close, as those that rest
+    // on each other from the start are: within a part of a step even slow ones
+    // get deep in a stiff contact.
+    const auto overlaps = [&] {
+      return find_touch(observed, within_).depth > 0.0;
+    };
+    if (clearance <= 0.0 && overlaps()) {
+      return bisect(before, after, fraction - sure, fraction,
+                    [&] { return !overlaps(); });
+    }
+    if (clearance > none) least = 0.0;
   }
   return fraction;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
@@ -28,10 +29,11 @@ void exchange(Archive& archive, EnergyGroups::Group& group) {
   group.observer.exchange_memory(archive);
 }
 
-EnergyGroups::EnergyGroups(const SystemModel& model, bool lags)
+EnergyGroups::EnergyGroups(const SystemModel& model, bool lags, double h)
     : model_(model),
       rows_(model),
       lags_(lags),
+      rest_speed_(h * model.gravity_W.norm()),
       has_met_(model.pairs.size(), 0),
       parents_(at(rows_.count)),
       groups_(at(rows_.count)),
@@ -256,6 +258,25 @@ const Vector3& EnergyGroups::find_velocity(Eigen::Index row) const {
   return groups_[group_of(at(row))].velocity;
 }
 
+// Of bodies that have been in contact, at the speed that a fall within a step
+// has: what rests on another body can have no less without a finer step.
+std::vector<double> EnergyGroups::find_rest_energies(
+    const std::vector<EnergyAccount>& accounts) const {
+  std::vector<double> energies(groups_.size(), 0.0);
+  std::vector<char> counts(model_.bodies.size(), 0);
+  for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+    if (has_met_[i] == 0) continue;
+    for (const BodyIndex b : {model_.pairs[i].body_A, model_.pairs[i].body_B}) {
+      if (b != kWorld) counts[index(b)] = 1;
+    }
+  }
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    if (counts[b] == 0) continue;
+    energies[group_of(b)] += 0.5 * accounts[b].mass * rest_speed_ * rest_speed_;
+  }
+  return energies;
+}
+
 std::vector<EnergyDrift> EnergyGroups::find_drifts(
     const std::vector<EnergyAccount>& accounts, const VectorX& negligible,
     double steps) const {
@@ -267,11 +288,12 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
                                     accounts[i].roundoff_in(v) +
                                     walk * accounts[i].noise;
   }
+  const std::vector<double> rest = find_rest_energies(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     const Group& group = groups_[i];
     EnergyDrift& drift = drifts[i];
     drift.drift = group.drift;
-    drift.throughput = group.throughput;
+    drift.throughput = std::max(group.throughput, rest[i]);
     drift.place_error = group.place_error;
     if (group.place_error == 0.0) continue;
     drift.place = name_energy_row(model_, group.worst);

@@ -22,12 +22,16 @@ inline constexpr double kLeastGrowth = 1.01;
 /// Equation   in the frame of a group that is not connected to the world, with
 ///            its velocity v at the start: E' = E - p . v + m v^2 / 2, and the
 ///            work less v . (impulse of all forces). Groups that touch become
-///            one, which moves with the mean of both velocities.
+///            one, which moves with the mean of both velocities. Of bodies
+///            that have been in contact the throughput is at least m (|g| h)^2
+///            / 2, h the step of the run: slower than a fall within a step is
+///            rest, as for ImpactObserver
 class EnergyGroups {
  public:
   /// @param lags whether work lags by a step (EnergyGrowthObserver)
   /// @param model stored by reference
-  EnergyGroups(const SystemModel& model, bool lags);
+  /// @param h step of the run, 0 with a tolerance [s]
+  EnergyGroups(const SystemModel& model, bool lags, double h);
 
   /// Connects the bodies of pairs that touch.
   /// @param accounts last included
@@ -99,11 +103,14 @@ class EnergyGroups {
   void join_attachment(Eigen::Index row, AttachmentIndex attachment);
   void meet(Group& group, const Group& other) const;
   void include_extremes(std::size_t root);
+  [[nodiscard]] std::vector<double> find_rest_energies(
+      const std::vector<EnergyAccount>& accounts) const;
   void note_place(std::size_t root, const std::vector<EnergyAccount>& accounts);
 
   const SystemModel& model_;
   EnergyRows rows_;
   bool lags_;
+  double rest_speed_;                  // [m/s]
   std::vector<char> has_met_;          // of pairs: they have touched
   std::vector<Eigen::Index> parents_;  // of rows; a root is its own
   std::vector<std::size_t> roots_;     // increasing

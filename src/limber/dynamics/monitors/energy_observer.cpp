@@ -53,12 +53,12 @@ double sum_coupler_energies(const SystemTerms& terms) {
 }
 
 EnergyObserver::EnergyObserver(const SystemModel& model,
-                               IntegratorKind integrator)
+                               IntegratorKind integrator, double h)
     : model_(model),
       works_by_ends_(integrator == IntegratorKind::generalized_alpha ||
                      integrator == IntegratorKind::implicit_euler),
       rows_(model),
-      groups_(model, integrator == IntegratorKind::explicit_euler),
+      groups_(model, integrator == IntegratorKind::explicit_euler, h),
       accounts_(static_cast<std::size_t>(rows_.count)),
       next_(accounts_),
       scratch_(model.bodies.size()),

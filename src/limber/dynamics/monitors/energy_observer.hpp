@@ -31,7 +31,9 @@ namespace limber::dynamics {
 class EnergyObserver {
  public:
   /// @param model stored by reference
-  EnergyObserver(const SystemModel& model, IntegratorKind integrator);
+  /// @param h step of the run, 0 with a tolerance [s]
+  EnergyObserver(const SystemModel& model, IntegratorKind integrator,
+                 double h = 0.0);
 
   /// @param terms at `state`, here and below
   /// @param taken by an impulse just before [J]

@@ -27,9 +27,10 @@ struct EnergyRow {
 
 /// Unexplained energy of a group of connected bodies.
 struct EnergyDrift {
-  Extreme drift;            ///< sum of the rows' errors [J]
-  double throughput = 0.0;  ///< the largest of |stored|, |work|, dissipated and
-                            ///< kinetic energy [J]
+  Extreme drift;  ///< sum of the rows' errors [J]
+  /// The largest of |stored|, |work|, dissipated and kinetic energy, and of
+  /// bodies in contact that of a fall within a step (EnergyGroups) [J].
+  double throughput = 0.0;
   /// Possible round-off of the drift, and what stiff joints may lose without a
   /// visible displacement (DeflectionObserver::find_negligible_energies) [J].
   double roundoff = 0.0;

@@ -145,6 +145,10 @@ void ImpactObserver::include(std::size_t i, const SystemState& state,
         std::max(record.peak_depth_over_radius,
                  std::numbers::pi * now.depth * now.depth / now.area);
   }
+  if (now.series_energy > pair.series_fraction * now.energy) {
+    pair.series_fraction = now.series_energy / now.energy;
+    pair.series_time = state.t;
+  }
   if (is_strongest) keep_stiffest(state, record);
   pair.is_touching = touches_now;
   record.has_parted = !touches_now;
@@ -225,6 +229,7 @@ void ImpactObserver::add_warnings(std::vector<std::string>& warnings) const {
     if (!joint.is_enough()) warnings.push_back(describe(joint));
   }
   add_deep(records, warnings);
+  add_soft(warnings);
   add_unbalanced(records, warnings);
   add_unmet(records, warnings);
   add_stable_step(warnings);
@@ -246,6 +251,18 @@ void ImpactObserver::add_deep(const std::vector<ContactRecord>& records,
         record.pair, record.time, record.peak_depth,
         is_round ? over_radius : over_extent,
         is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
+  }
+}
+
+// Of bodies that yield more by what their modes leave out than by the surfaces.
+void ImpactObserver::add_soft(std::vector<std::string>& warnings) const {
+  for (const OngoingContact& pair : pairs_) {
+    if (!(pair.series_fraction > kSoftest)) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': at t = {:.6g} s {:.2g} % of its energy is in "
+        "deformation that the modes leave out, which has no inertia; use more "
+        "modes, until force and duration no longer change",
+        pair.record.pair, pair.series_time, 100.0 * pair.series_fraction));
   }
 }
 

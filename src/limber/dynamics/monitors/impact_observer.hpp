@@ -53,13 +53,18 @@ struct OngoingContact {
   /// Errors in the steps of this record (EnergyObserver::PairStep) [J].
   double own_error = 0.0;
   double group_error = 0.0;
+  /// Largest part of the stored energy, and when, that is in flexibility in
+  /// series with the surfaces [-].
+  double series_fraction = 0.0;
+  double series_time = 0.0;  ///< [s]
 };
 
 constexpr auto fields_of(const OngoingContact*) {
   return list_fields("ongoing contact", "is touching", "left [s]",
                      "largest force [N]", "largest depth [m]", "record", "load",
                      "impulse", "velocities at touch", "energies before",
-                     "own error [J]", "error of the group [J]");
+                     "own error [J]", "error of the group [J]",
+                     "fraction in series", "its time [s]");
 }
 
 /// Records every impact from the ends of all accepted steps.
@@ -84,7 +89,8 @@ class ImpactObserver {
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
   /// Warns of steps too long for their impacts, of bases too small for them
   /// (ImpactSpectrum), of joints too soft (JointResponse), of contacts deeper
-  /// than kDeepest, of impacts whose energy does not balance, of touches of
+  /// than kDeepest, of bases that leave out most of the deformation, of impacts
+  /// whose energy does not balance, of touches of
   /// surfaces that do not face each other, and of the stable step of an
   /// explicit scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
@@ -93,6 +99,10 @@ class ImpactObserver {
   /// warning: the area's radius is then 0.3 of it, while Hertz's paraboloid on
   /// a half space assumes that it is small [@johnson1985] [-].
   static constexpr double kDeepest = 0.1;
+  /// Fraction of the stored energy in flexibility that the modes leave out that
+  /// gives a warning: it is then three times as soft as the surfaces, and
+  /// determines force and duration [-].
+  static constexpr double kSoftest = 0.75;
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
@@ -108,6 +118,7 @@ class ImpactObserver {
   void add_stable_step(std::vector<std::string>& warnings) const;
   void add_deep(const std::vector<ContactRecord>& records,
                 std::vector<std::string>& warnings) const;
+  void add_soft(std::vector<std::string>& warnings) const;
   void add_unbalanced(const std::vector<ContactRecord>& records,
                       std::vector<std::string>& warnings) const;
   void add_unmet(const std::vector<ContactRecord>& records,

@@ -20,9 +20,9 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 }  // namespace
 
 StepObserver::StepObserver(const SystemModel& model, IntegratorKind integrator,
-                           SystemTerms& scratch)
+                           double h, SystemTerms& scratch)
     : model_(model),
-      energy_observer_(model, integrator),
+      energy_observer_(model, integrator, h),
       deflection_(model),
       limits_(model),
       terms_(scratch),

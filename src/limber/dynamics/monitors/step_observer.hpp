@@ -21,8 +21,9 @@ namespace limber::dynamics {
 ///            evaluation; their steps resolve all motion.
 class StepObserver {
  public:
+  /// @param h step of the run, 0 with a tolerance [s]
   /// @param scratch for terms, which others may use between calls
-  StepObserver(const SystemModel& model, IntegratorKind integrator,
+  StepObserver(const SystemModel& model, IntegratorKind integrator, double h,
                SystemTerms& scratch);
 
   /// @param terms at `state`

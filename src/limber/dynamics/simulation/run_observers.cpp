@@ -18,6 +18,11 @@ namespace {
 constexpr long kStepsBetweenLooks = 32;  // checks of the energy
 constexpr double kWhole = 1.0 - 1e-9;    // of a step, that counts as all of it
 
+// Step of the run, 0 with a tolerance [s].
+double fixed_step(const SimulationSettings& settings) {
+  return settings.tolerance > 0.0 ? 0.0 : settings.step;
+}
+
 }  // namespace
 
 RunObservers::RunObservers(const SystemModel& model,
@@ -34,9 +39,9 @@ RunObservers::RunObservers(const SystemModel& model,
       peaks_(model, followed,
              choose_envelope_edges(start.t, settings.output_times,
                                    settings.end_time)),
-      step_observer_(model, settings.integrator, stepper.scratch()),
-      contacts_(model, settings.integrator,
-                settings.tolerance > 0.0 ? 0.0 : settings.step),
+      step_observer_(model, settings.integrator, fixed_step(settings),
+                     stepper.scratch()),
+      contacts_(model, settings.integrator, fixed_step(settings)),
       sound_(start),
       beside_(start) {
   steps_.of_body.resize(model.bodies.size());

@@ -35,9 +35,11 @@ struct TouchReading {
                                        ///< force [-]
   Vector3 p_W = Vector3::Zero();       ///< of the largest force [m]
   Vector3 force_W = Vector3::Zero();   ///< resultant on B [N]
-  double depth = 0.0;                  ///< largest [m]
+  double depth = 0.0;                  ///< largest, of the surfaces alone [m]
   double area = 0.0;                   ///< of all points' [m^2]
   double energy = 0.0;                 ///< stored [J]
+  double series_energy = 0.0;  ///< the part of it in flexibility in series with
+                               ///< the surfaces [J]
   /// Of the vibration of both bodies on this touch, at least the rate at which
   /// its damper acts [rad/s].
   double frequency = 0.0;
