@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "metamorphic/random_draw.hpp"
 #include "metamorphic/scene_plan.hpp"
 

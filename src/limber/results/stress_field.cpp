@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/results/xdmf_file.hpp"

@@ -11,7 +11,7 @@
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {

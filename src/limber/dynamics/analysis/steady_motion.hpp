@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "limber/dynamics/analysis/small_motion.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Whether a system is in steady state at its start: at rest, or in steady
 /// rotation.

@@ -7,7 +7,7 @@
 
 #include "limber/dynamics/bodies/place_change.hpp"
 #include "limber/dynamics/bodies/surface_reach.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
 /// Functions that a kind of body provides (body.hpp); a kind that lacks a

@@ -9,7 +9,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {

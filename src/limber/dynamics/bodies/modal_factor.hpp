@@ -6,7 +6,7 @@
 #include "limber/dynamics/bodies/coupled_modes.hpp"
 #include "limber/dynamics/bodies/link_end.hpp"
 #include "limber/dynamics/bodies/tangent_coefficients.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {

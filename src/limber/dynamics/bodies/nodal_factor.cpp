@@ -7,7 +7,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
-#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {

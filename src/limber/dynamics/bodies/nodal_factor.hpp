@@ -3,7 +3,7 @@
 
 #include "limber/dynamics/bodies/link_end.hpp"
 #include "limber/dynamics/bodies/tangent_coefficients.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 /// Derivatives of the places of pairs by a body's unknowns.

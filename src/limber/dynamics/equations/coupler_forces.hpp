@@ -5,7 +5,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/evaluation_time.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Contributions of couplers and transmissions to the equations of motion;
 /// called by dynamics/equations.

@@ -2,7 +2,7 @@
 #include "limber/dynamics/equations/coupler_motion.hpp"
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {

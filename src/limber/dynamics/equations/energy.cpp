@@ -4,7 +4,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/full_energy.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

@@ -4,7 +4,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/kernels/inertia_kernel.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/equations/energy_balance.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {

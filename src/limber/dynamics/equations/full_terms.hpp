@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Contributions of bodies at level `full` to the equations of motion; called
 /// by dynamics/equations.

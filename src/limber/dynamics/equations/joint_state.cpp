@@ -13,7 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 /// Field lists of a run's checkpoint data (common/records/fields.hpp).

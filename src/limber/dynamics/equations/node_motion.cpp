@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/evaluation_time.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Contributions of pair interactions to the equations of motion.
 namespace limber::dynamics {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// The coordinate of a transmission, a path's length or a sum of joints'
 /// coordinates, and the forces along it.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {

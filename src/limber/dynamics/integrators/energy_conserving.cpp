@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/system/body_model.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/step_result.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 

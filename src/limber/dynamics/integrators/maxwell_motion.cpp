@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/integrators/maxwell_motion.hpp"
 
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 

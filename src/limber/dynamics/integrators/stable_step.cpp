@@ -9,7 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
 
 namespace limber::dynamics {

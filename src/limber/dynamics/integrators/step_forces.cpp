@@ -3,7 +3,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/integrators/step_pairs.hpp"

@@ -7,7 +7,7 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/energy_flows.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/energy_account.hpp"
 #include "limber/dynamics/monitors/energy_groups.hpp"

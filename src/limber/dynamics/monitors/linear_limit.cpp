@@ -10,7 +10,7 @@
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {

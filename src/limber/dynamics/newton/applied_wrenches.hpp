@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// The iterates of wrenches in Newton's method, as one vector: six per coupler
 /// [N, N m], then one per transmission [N or N m].

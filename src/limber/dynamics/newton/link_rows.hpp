@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Rows of NewtonMatrix: the relative motion of couplers and transmissions
 /// (links) per increment of a body.

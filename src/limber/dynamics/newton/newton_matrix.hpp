@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "limber/dynamics/bodies/body_factor.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/newton/lu_plan.hpp"
 #include "limber/dynamics/newton/pair_tangents.hpp"
 #include "limber/dynamics/system/unknowns.hpp"

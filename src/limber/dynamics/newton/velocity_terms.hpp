@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Accelerations across links that velocities alone cause, and what they
 /// require of the links' wrenches.

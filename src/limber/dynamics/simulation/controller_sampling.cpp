@@ -13,7 +13,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {

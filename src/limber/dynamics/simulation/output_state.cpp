@@ -2,7 +2,7 @@
 #include "limber/dynamics/simulation/output_state.hpp"
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/interpolation.hpp"
 
 namespace limber::dynamics {

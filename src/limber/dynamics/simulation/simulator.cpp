@@ -10,7 +10,7 @@
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <stop_token>
 
-#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/simulation_statistics.hpp"

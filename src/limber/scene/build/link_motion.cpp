@@ -8,7 +8,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
 #include "limber/common/roll_pitch_yaw.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/joints/joint_motion.hpp"
 #include "limber/scene/text/problems.hpp"
 

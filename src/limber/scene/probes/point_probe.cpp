@@ -2,7 +2,7 @@
 #include "limber/scene/probes/point_probe.hpp"
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 namespace limber::scene {
 namespace {

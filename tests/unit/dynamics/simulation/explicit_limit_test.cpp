@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/integrators/runge_kutta.hpp"
 #include "limber/dynamics/integrators/splitting.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"

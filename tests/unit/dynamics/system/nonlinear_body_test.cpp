@@ -10,7 +10,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/system/system_builder.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/model_fields.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/pairs/point_springs.hpp"

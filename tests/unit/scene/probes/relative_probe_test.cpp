@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/scene/probes/point_probe.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/nodal_frame.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 
 /// Jacobian of an attachment's frame by its body's unknowns, ordered as in
 /// dynamics/newton/newton_matrix.hpp: rows translation over rotation, expressed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 
 #include "limber/common/rotation.hpp"
 

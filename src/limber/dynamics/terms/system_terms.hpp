@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "limber/dynamics/equations/kinematics.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coordinates/scalar_motion.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/kernels/column_kernels.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/equations/maxwell.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 #include "limber/dynamics/system/unknowns.hpp"
 
