@@ -10,7 +10,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/reference/scene_mechanism.hpp"
 #include "limber/reference/stiffening.hpp"
@@ -165,9 +164,11 @@ double find_fraction(double part, double whole) {
 
 void refuse_ideal_joints(const dynamics::SystemModel& model,
                          const char* remedy) {
-  const dynamics::Coupler* joint = dynamics::find_ideal_joint(model);
-  if (joint == nullptr) return;
-  throw InputError(fmt::format("joint '{}' is ideal: {}", joint->name, remedy));
+  for (const dynamics::Coupler& coupler : model.couplers) {
+    if (!joints::is_ideal(coupler.law)) continue;
+    throw InputError(
+        fmt::format("joint '{}' is ideal: {}", coupler.name, remedy));
+  }
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/results/xdmf_file.hpp"
 

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/runs/numbered_stages.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"

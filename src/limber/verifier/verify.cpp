@@ -13,7 +13,6 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -120,7 +119,7 @@ void verify(const VerifyOptions& options) {
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
   report.tolerance = built.settings.tolerance;
-  if (options.joints.empty() && dynamics::find_ideal_joint(built.model)) {
+  if (options.joints.empty() && has_ideal_joints(built.model)) {
     report.options.simbody.joints = reference::JointModel::ideal;
   }
   if (!options.stiffen.empty()) {

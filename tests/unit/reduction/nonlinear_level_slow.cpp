@@ -11,8 +11,8 @@
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
 

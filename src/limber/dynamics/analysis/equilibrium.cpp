@@ -13,7 +13,6 @@
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
-#include "limber/dynamics/newton/constraint_wrenches.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
@@ -232,11 +231,12 @@ Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
                              const Progress& progress) {
   if (const auto stiff = replace_ideal_joints(model)) {
     Equilibrium found = find_equilibrium(*stiff, start, settings, progress);
-    store_wrenches(model, *stiff, found.state);
     EquilibriumSettings near = settings;
     near.method = EquilibriumMethod::newton;
-    found.state = find_equilibrium(*stiff, found.state, near).state;
-    set_constraint_wrenches(model, found.state);
+    found.state = solve_without_deflection(
+        model, *stiff, std::move(found.state), [&](const SystemState& from) {
+          return find_equilibrium(*stiff, from, near).state;
+        });
     return found;
   }
   if (!model.pairs.empty()) {

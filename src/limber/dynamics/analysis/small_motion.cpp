@@ -9,6 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/stiff_joints.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"

@@ -14,7 +14,6 @@
 #include "limber/dynamics/analysis/stiff_joints.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
-#include "limber/dynamics/newton/constraint_wrenches.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -251,11 +250,11 @@ SystemState find_steady_spin(const SystemModel& model,
                              const SystemState& start) {
   LIMBER_EXPECT(!model.bodies.empty());
   if (const auto stiff = replace_ideal_joints(model)) {
-    SystemState found = find_steady_spin(*stiff, start);
-    store_wrenches(model, *stiff, found);
-    found = find_steady_spin(*stiff, found);
-    set_constraint_wrenches(model, found);
-    return found;
+    return solve_without_deflection(model, *stiff,
+                                    find_steady_spin(*stiff, start),
+                                    [&](const SystemState& from) {
+                                      return find_steady_spin(*stiff, from);
+                                    });
   }
   if (find_fastest_spin(start).isZero(0.0)) {
     throw InputError(

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/stiff_joints.hpp"
 
-#include <algorithm>
-
 #include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 
-const Coupler* find_ideal_joint(const SystemModel& model) {
-  const auto found =
-      std::find_if(model.couplers.begin(), model.couplers.end(),
-                   [](const Coupler& c) { return joints::is_ideal(c.law); });
-  return found == model.couplers.end() ? nullptr : &*found;
-}
-
 std::optional<SystemModel> replace_ideal_joints(const SystemModel& model) {
-  if (find_ideal_joint(model) == nullptr) return std::nullopt;
+  if (!has_ideal_joints(model)) return std::nullopt;
   SystemModel stiff = model;
   for (Coupler& coupler : stiff.couplers) {
     if (!joints::is_ideal(coupler.law)) continue;

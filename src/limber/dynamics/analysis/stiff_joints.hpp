@@ -3,12 +3,9 @@
 
 #include <optional>
 
-#include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/newton/constraint_wrenches.hpp"
 
 namespace limber::dynamics {
-
-/// The first ideal joint; null if there is none.
-[[nodiscard]] const Coupler* find_ideal_joint(const SystemModel& model);
 
 /// The model with stiff joints in place of ideal ones, for analyses whose
 /// unknowns are positions alone; none if it has no ideal joint. Where their
@@ -23,5 +20,20 @@ namespace limber::dynamics {
 /// @param stiff of `model`, by replace_ideal_joints
 void store_wrenches(const SystemModel& model, const SystemModel& stiff,
                     SystemState& state);
+
+/// A solution with stiff joints in place of ideal ones, solved again so that
+/// these do not deflect, with what holds the ideal ones.
+/// @param first the solution of `stiff`
+/// @param solve it again from a state
+template <typename Solve>
+[[nodiscard]] SystemState solve_without_deflection(const SystemModel& model,
+                                                   const SystemModel& stiff,
+                                                   SystemState first,
+                                                   const Solve& solve) {
+  store_wrenches(model, stiff, first);
+  SystemState found = solve(first);
+  set_constraint_wrenches(model, found);
+  return found;
+}
 
 }  // namespace limber::dynamics

@@ -26,6 +26,14 @@ decltype(auto) visit_body(const SystemModel& model, std::size_t body,
   return std::forward<Visit>(visit)(ModalBody(model, body));
 }
 
+/// Calls `visit` with the views of all bodies, in their order.
+template <typename Visit>
+void visit_bodies(const SystemModel& model, const Visit& visit) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    visit_body(model, b, visit);
+  }
+}
+
 /// Those of a body's unknowns that move.
 [[nodiscard]] inline UnknownRanges list_unknowns(const SystemModel& model,
                                                  std::size_t body) {

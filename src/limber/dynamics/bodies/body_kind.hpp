@@ -4,9 +4,11 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <span>
 
 #include "limber/dynamics/bodies/place_change.hpp"
 #include "limber/dynamics/bodies/surface_reach.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -68,15 +70,71 @@ struct WrenchSum {
   }
 };
 
+/// A force on a body at a place of one of its pairs.
+struct PairForce {
+  const joints::PairPlace& place;
+  Vector3 arm_B;    ///< of the place, from Bo [m]
+  Vector3 force_W;  ///< [N]
+};
+
 /// A kind is a view of a model's body: made from (model, index of the body).
+///
+/// Its part of the equations of motion. Each adds to what the body's forces
+/// are since reset_forces(); add_wrench() and add_load() need
+/// calc_attachment(), pairs' forces set_pair_body().
 template <typename Kind>
-concept BodyKind = requires(const Kind& body, const SystemState& state,
-                            const SystemTerms& terms, const VectorX& x,
-                            const Vector3& v, const joints::PairPlace& place,
-                            const joints::TouchReach& points,
-                            const TangentPoint& at, const PlaceForce& force,
-                            WrenchSum& sum, SurfaceReach& reach, VectorX& r,
-                            Matrix3X& scratch) {
+concept EquationKind = requires(
+    const Kind& body, const SystemState& state, SystemTerms& terms,
+    const SystemTerms& found, const Attachment& attachment,
+    AttachmentMotion& motion, const Vector3& v, const Load& load, double factor,
+    const BodyLoad& nodal, Eigen::Index column, ProductTerms& own,
+    joints::PairBody& moving, const PairForce& force, const VectorX& x,
+    VectorX& r, EnergyBalance& balance, std::span<const SystemState> states,
+    Eigen::Ref<MatrixX> nodes) {
+  // Terms of its size, of attachments on it, and its coordinates for pairs.
+  body.append_terms(terms);
+  body.size_attachment(attachment, motion, terms);
+  { body.make_products() } -> std::same_as<ProductTerms>;
+  // R_WB, inertia and all that depends on the state alone.
+  body.calc_inertia(state, terms);
+  // Gravity and damping, and their powers.
+  body.reset_forces(state, terms);
+  // All forces and bias terms zero.
+  body.clear_forces(terms);
+  body.calc_attachment(attachment, state, terms, motion);
+  { body.find_frame(attachment, state) } -> std::same_as<FrameMotion>;
+  // A force [N] and a moment [N m] at an attachment, world frame.
+  body.add_wrench(attachment, motion, v, v, terms);
+  // Loads, `factor` times, and column `column` of nodal ones; their powers.
+  body.add_load(load, factor, state, terms);
+  body.add_nodal_load(nodal, column, state, terms);
+  // Its motion for pairs, which refers to the coordinates of `own` or `state`;
+  // with terms, from calc_inertia().
+  body.set_pair_body(state, own, moving);
+  body.set_pair_body(state, found, own, moving);
+  body.add_force(force, terms);
+  body.add_force_residual(force, found, r);
+  // Once all forces are known: completes them, and the power received.
+  body.complete_forces(state, terms);
+  // In its rows of all accelerations and residuals.
+  body.solve_acceleration(found, r);
+  body.calc_residual(x, terms, r);
+  { body.find_elastic_energy(state, found) } -> std::same_as<double>;
+  // Kinetic energy and momenta.
+  body.add_energy(state, terms, balance);
+  // Motion of its stored nodes (equations/node_motion.hpp).
+  body.deform_nodes(states, nodes);
+  body.place_nodes(states, nodes);
+};
+
+/// Measures of its state and motion, and derivatives for Newton's method.
+template <typename Kind>
+concept BodyKind = EquationKind<Kind> &&
+    requires(const Kind& body, const SystemState& state,
+             const SystemTerms& terms, const VectorX& x, const Vector3& v,
+             const joints::PairPlace& place, const joints::TouchReach& points,
+             const TangentPoint& at, const PlaceForce& force, WrenchSum& sum,
+             SurfaceReach& reach, VectorX& r, Matrix3X& scratch) {
   { body.list_unknowns() } -> std::same_as<UnknownRanges>;
   // Whether it has a block in the dense part of Newton's matrix.
   { body.has_dense_block() } -> std::same_as<bool>;

@@ -5,7 +5,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/bodies/body_increment.hpp"
-#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/flexbody/model/mode_products.hpp"

@@ -10,7 +10,47 @@ namespace limber::dynamics {
 class ModalBody {
  public:
   ModalBody(const SystemModel& model, std::size_t body)
-      : body_(model.bodies[body]), b_(body) {}
+      : model_(model), body_(model.bodies[body]), b_(body) {}
+
+  void append_terms(SystemTerms& terms) const;
+  void size_attachment(const Attachment& attachment, AttachmentMotion& motion,
+                       SystemTerms& terms) const;
+  [[nodiscard]] ProductTerms make_products() const;
+  void calc_inertia(const SystemState& state, SystemTerms& terms) const;
+  void reset_forces(const SystemState& state, SystemTerms& terms) const;
+  void clear_forces(SystemTerms& terms) const;
+  void calc_attachment(const Attachment& attachment, const SystemState& state,
+                       SystemTerms& terms, AttachmentMotion& motion) const;
+  [[nodiscard]] FrameMotion find_frame(const Attachment& attachment,
+                                       const SystemState& state) const;
+  void add_wrench(const Attachment& attachment, AttachmentMotion& motion,
+                  const Vector3& force_W, const Vector3& moment_W,
+                  SystemTerms& terms) const;
+  void add_load(const Load& load, double factor, const SystemState& state,
+                SystemTerms& terms) const;
+  void add_nodal_load(const BodyLoad& load, Eigen::Index i,
+                      const SystemState& state, SystemTerms& terms) const;
+  void set_pair_body(const SystemState& state, ProductTerms& own,
+                     joints::PairBody& out) const;
+  void set_pair_body(const SystemState& state, const SystemTerms& terms,
+                     ProductTerms& own, joints::PairBody& out) const;
+  void add_force(const PairForce& force, SystemTerms& terms) const;
+  void add_force_residual(const PairForce& force, const SystemTerms& terms,
+                          VectorX& residual) const;
+  void complete_forces(const SystemState& state, SystemTerms& terms) const;
+  void solve_acceleration(const SystemTerms& terms,
+                          VectorX& accelerations) const;
+  void calc_residual(const VectorX& acceleration, SystemTerms& terms,
+                     VectorX& residual) const;
+  [[nodiscard]] double find_elastic_energy(const SystemState& state,
+                                           const SystemTerms& terms) const;
+  void add_energy(const SystemState& state, SystemTerms& terms,
+                  EnergyBalance& balance) const;
+
+  void deform_nodes(std::span<const SystemState> states,
+                    Eigen::Ref<MatrixX> u_B) const;
+  void place_nodes(std::span<const SystemState> states,
+                   Eigen::Ref<MatrixX> p_WP) const;
 
   [[nodiscard]] UnknownRanges list_unknowns() const;
   [[nodiscard]] bool has_dense_block() const { return true; }
@@ -41,6 +81,10 @@ class ModalBody {
                         VectorX& residual) const;
 
  private:
+  void set_pair_body(const SystemState& state, const Matrix3& R_WB,
+                     ProductTerms& own, joints::PairBody& out) const;
+
+  const SystemModel& model_;
   const BodyModel& body_;
   std::size_t b_;
 };

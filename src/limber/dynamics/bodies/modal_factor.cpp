@@ -8,9 +8,9 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/terms/attachment_jacobian.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 
 namespace limber::dynamics {
 

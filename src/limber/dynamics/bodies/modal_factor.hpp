@@ -6,8 +6,8 @@
 #include "limber/dynamics/bodies/coupled_modes.hpp"
 #include "limber/dynamics/bodies/link_end.hpp"
 #include "limber/dynamics/bodies/tangent_coefficients.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 namespace limber::dynamics {
 
@@ -118,6 +118,28 @@ void NodalBody::add_force_change(const TangentPoint& at,
     const Vector3 part =
         place.Phi_B.middleCols<3>(3 * n).transpose() * d_force_B;
     rows.col(n) -= R_HB * part;
+  }
+}
+
+void NodalBody::deform_nodes(std::span<const SystemState> states,
+                             Eigen::Ref<MatrixX> u_B) const {
+  Matrix3X deformation(3, full().mesh->node_count());
+  for (Eigen::Index j = 0; j < u_B.cols(); ++j) {
+    const SystemState& state = states[static_cast<std::size_t>(j)];
+    MeanFrame frame;
+    calc_mean_frame(model_, full(), state, frame);
+    calc_deformation(full(), frame, nodes_of(full(), state.u_H), deformation);
+    u_B.col(j) = deformation.reshaped();
+  }
+}
+
+void NodalBody::place_nodes(std::span<const SystemState> states,
+                            Eigen::Ref<MatrixX> p_WP) const {
+  for (Eigen::Index j = 0; j < p_WP.cols(); ++j) {
+    const SystemState& state = states[static_cast<std::size_t>(j)];
+    const Pose& X_WH = state.X_WH[f()];
+    const Matrix3X x = full().mesh->x_B + nodes_of(full(), state.u_H);
+    p_WP.col(j).reshaped(3, x.cols()) = (X_WH.R * x).colwise() + X_WH.p;
   }
 }
 

@@ -6,9 +6,9 @@
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/full_terms.hpp"
-#include "limber/dynamics/terms/attachment_jacobian.hpp"
+#include "limber/dynamics/bodies/nodal_body.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -74,7 +74,7 @@ bool NodalFactor::update(const SystemModel& model, std::size_t b,
   flexbody::FullBodySolver& solver = *terms.full[f].solver;
   const bool is_free =
       !model.bodies[static_cast<std::size_t>(full.body)].clamped;
-  const double shift = name_failures(model, full, state.t, [&] {
+  const double shift = name_failures(model.bodies[b], state.t, [&] {
     return is_free ? factor_free(full, solver, u_B, c.acceleration)
                    : (solver.factor(u_B, c.acceleration), c.acceleration);
   });

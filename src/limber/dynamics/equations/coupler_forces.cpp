@@ -4,33 +4,11 @@
 #include <fmt/format.h>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-void add_reduced_wrench(const BodyModel& body, const Attachment& attachment,
-                        const Vector3& force_W, const Vector3& moment_W,
-                        AttachmentMotion& motion, BodyTerms& terms) {
-  const Vector3 force_B = motion.R_WB.transpose() * force_W;
-  const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
-  terms.force_W += force_W;
-  terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
-  if (body.modes == 0) return;
-  const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
-  kernels::add_interface_force(columns_of(translation_of(attachment, motion),
-                                          rotation_of(attachment, motion)),
-                               force_B.data(), twist_B.data(),
-                               terms.modal_force.data());
-  if (!attachment.second) return;
-  motion.wrench_B.head<3>() += force_B;
-  motion.wrench_B.tail<3>() += twist_B;
-}
-
-FrameMotion frame_motion(const AttachmentMotion& motion) {
-  return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
-}
 
 // Adds a wrench on M at Mo, expressed in F, and its reaction on F, shifted from
 // Mo to Fo.
@@ -102,14 +80,10 @@ void add_wrench(const SystemModel& model, AttachmentIndex attachment,
                 SystemTerms& terms) {
   const Attachment& a = model.attachments[index(attachment)];
   if (a.body == kWorld) return;
-  AttachmentMotion& motion = terms.attachments[index(attachment)];
-  const BodyModel& body = model.bodies[index(a.body)];
-  if (body.full >= 0) {
-    add_full_wrench(model, a, motion, force_W, moment_W, terms);
-    return;
-  }
-  add_reduced_wrench(body, a, force_W, moment_W, motion,
-                     terms.bodies[index(a.body)]);
+  visit_body(model, index(a.body), [&](const auto& own) {
+    own.add_wrench(a, terms.attachments[index(attachment)], force_W, moment_W,
+                   terms);
+  });
 }
 
 void apply_couplers(const SystemModel& model, const SystemState& state,

@@ -2,8 +2,8 @@
 #include "limber/dynamics/equations/coupler_motion.hpp"
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 
 namespace limber::dynamics {
 

@@ -49,7 +49,7 @@ class CouplerGraph {
     include(other, visited, beyond);
     // What remains on the body's own side.
     Group own{model_.bodies[index(body)].mass,
-              model_.bodies[index(body)].clamped};
+              model_.bodies[index(body)].is_held()};
     for (const AttachmentIndex far : ends_[index(body)]) {
       include(far, visited, own);
     }
@@ -80,7 +80,7 @@ class CouplerGraph {
     if (visited[index(body)]) return;
     visited[index(body)] = true;
     group.mass += model_.bodies[index(body)].mass;
-    group.is_grounded |= model_.bodies[index(body)].clamped;
+    group.is_grounded |= model_.bodies[index(body)].is_held();
     for (const AttachmentIndex far : ends_[index(body)]) {
       include(far, visited, group);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "limber/dynamics/system/system_state.hpp"
 #include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/terms/system_terms.hpp"
-#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 

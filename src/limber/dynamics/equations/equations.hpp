@@ -6,6 +6,9 @@
 /// The equations of motion of docs/theory/equations.md, at each fidelity.
 namespace limber::dynamics {
 
+/// Terms of a model's size, with forces of zero.
+[[nodiscard]] SystemTerms make_terms(const SystemModel& model);
+
 /// Fills R_WB, J, H and the bias terms of every body.
 void calc_inertia_terms(const SystemModel& model, const SystemState& state,
                         SystemTerms& terms);
@@ -22,7 +25,7 @@ void calc_terms(const SystemModel& model, const SystemState& state, Side side,
                 SystemTerms& terms, WrenchSource source = WrenchSource::law);
 
 /// Sets all forces and bias terms to zero.
-void clear_forces(SystemTerms& terms);
+void clear_forces(const SystemModel& model, SystemTerms& terms);
 
 /// Solves each body's 6 + m equations for its accelerations.
 /// @param accelerations of all unknowns (unknowns.hpp)
@@ -36,12 +39,5 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
 /// @param residual likewise [N, N m, N/kg^1/2]
 void calc_residual(const SystemModel& model, const VectorX& acceleration,
                    SystemTerms& terms, VectorX& residual);
-
-/// Adds the derivative of minus the modal forces with respect to the modes at
-/// level nonlinear: the geometric stiffness of all forces on interfaces, points
-/// and nodes, m x m. @param terms with forces
-void add_geometric_stiffness(const SystemModel& model, std::size_t body,
-                             const SystemTerms& terms,
-                             Eigen::Ref<MatrixX> stiffness);
 
 }  // namespace limber::dynamics

@@ -75,14 +75,14 @@ class Placing {
     check_coordinates();
     raise();
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      is_placed_[b] = model_.bodies[b].clamped;
+      is_placed_[b] = model_.bodies[b].is_held();
     }
     follow_joints();
     while (const auto root = find_root()) {
       is_placed_[*root] = true;
       follow_joints();
     }
-    if (!model_.full_bodies.empty()) place_nodes(model_, {}, {}, state_);
+    place_nodes(model_, {}, {}, state_);
     check_loops();
     raise();
     store_turns(model_, joints_, state_);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 
 /// Field lists of a run's checkpoint data (common/records/fields.hpp).
 namespace limber::dynamics {

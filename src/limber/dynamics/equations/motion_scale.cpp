@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/displacement_measure.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -50,10 +51,10 @@ MotionScale::MotionScale(const SystemModel& model)
       scale.lambda = body.reduced->lambda.head(body.modes);
     }
     bodies_.push_back(std::move(scale));
-  }
-  for (const FullModel& full : model.full_bodies) {
-    full_.push_back(
-        {static_cast<std::size_t>(full.body), full.first, full.dofs()});
+    for (const UnknownRange& range : list_unknowns(model, b)) {
+      if (range.kind != UnknownKind::nodes) continue;
+      nodes_.push_back({b, range.row - first_node_, range.size});
+    }
   }
 }
 
@@ -78,12 +79,12 @@ MotionScale::Largest MotionScale::measure_change(const VectorX& a,
     }
     include(factor * factor * squared, i, largest);
   }
-  for (const Nodes& full : full_) {
-    const Eigen::Index row = first_node_ + full.first;
-    for (Eigen::Index i = row; i < row + full.dofs; i += 3) {
+  for (const Nodes& nodes : nodes_) {
+    const Eigen::Index row = first_node_ + nodes.first;
+    for (Eigen::Index i = row; i < row + nodes.dofs; i += 3) {
       include(
           factor * factor * (b.segment<3>(i) - a.segment<3>(i)).squaredNorm(),
-          full.body, largest);
+          nodes.body, largest);
     }
   }
   return take_root(largest);
@@ -110,10 +111,10 @@ MotionScale::Largest MotionScale::measure_distance(const SystemState& a,
     }
     include(squared, i, largest);
   }
-  for (const Nodes& full : full_) {
-    for (Eigen::Index i = full.first; i < full.first + full.dofs; i += 3) {
+  for (const Nodes& nodes : nodes_) {
+    for (Eigen::Index i = nodes.first; i < nodes.first + nodes.dofs; i += 3) {
       include((b.u_H.segment<3>(i) - a.u_H.segment<3>(i)).squaredNorm(),
-              full.body, largest);
+              nodes.body, largest);
     }
   }
   return take_root(largest);

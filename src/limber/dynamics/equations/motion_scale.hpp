@@ -52,7 +52,7 @@ class MotionScale {
   };
   Eigen::Index first_node_;  // row of the first node
   std::vector<Body> bodies_;
-  std::vector<Nodes> full_;
+  std::vector<Nodes> nodes_;
 };
 
 /// Largest distance of a known point of a body (kept nodes and attachments)

@@ -8,9 +8,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/system/body_model.hpp"
-#include "limber/dynamics/system/unknowns.hpp"
-#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -20,129 +19,27 @@ std::size_t slot_of(BodyIndex body, const PairTerms& terms) {
   return body == kWorld ? terms.bodies.size() - 1 : index(body);
 }
 
-void set_pair_coordinates(const BodyModel& body, const SystemState& state,
-                          ProductTerms& own, joints::PairBody& out) {
-  const double* eta = state.eta.data() + body.offset;
-  const double* etadot = state.etadot.data() + body.offset;
-  out.modes = count_coordinates(body);
-  out.eta = eta;
-  out.etadot = etadot;
-  if (paired_of(body).empty()) return;
-  const int m = body.modes;
-  own.eta.head(m) = state.eta.segment(body.offset, m);
-  own.etadot.head(m) = state.etadot.segment(body.offset, m);
-  flexbody::set_products(paired_of(body), eta, own.eta.data() + m);
-  flexbody::set_product_rates(paired_of(body), eta, etadot,
-                              own.etadot.data() + m);
-  out.eta = own.eta.data();
-  out.etadot = own.etadot.data();
-}
-
-void set_body(const SystemModel& model, const SystemState& state, std::size_t b,
-              const Matrix3& R_WB, ProductTerms& own, joints::PairBody& out) {
-  const BodyState& rigid = state.bodies[b];
-  out.R_WB = R_WB;
-  out.p_WB = rigid.p_WB;
-  out.v_WB_W = rigid.v_WB_W;
-  out.w_WB_B = rigid.w_WB_B;
-  set_pair_coordinates(model.bodies[b], state, own, out);
-}
-
-void set_full_body(const SystemModel& model, const SystemState& state,
-                   std::size_t f, const MeanFrame& frame, ProductTerms& own,
-                   joints::PairBody& out) {
-  const FullModel& full = model.full_bodies[f];
-  const Matrix3 R_BH = frame.R_HB.transpose();
-  out.R_WB = state.X_WH[f].R * frame.R_HB;
-  out.p_WB = state.X_WH[f] * frame.p_HB;
-  out.v_WB_W = state.X_WH[f].R * frame.v_H;
-  out.w_WB_B = R_BH * frame.w_H;
-  const ConstNodes u_H = nodes_of(full, state.u_H);
-  const ConstNodes udot_H = nodes_of(full, state.udot_H);
-  double most_u = 0.0;
-  double most_udot = 0.0;
-  for (Eigen::Index n = 0; n < u_H.cols(); ++n) {
-    const Vector3 arm_H = full.mesh->x_B.col(n) + u_H.col(n) - frame.p_HB;
-    const Vector3 deformed = R_BH * arm_H - full.mesh->x_B.col(n);
-    const Vector3 rate =
-        R_BH * (udot_H.col(n) - frame.v_H - frame.w_H.cross(arm_H));
-    own.eta.segment<3>(3 * n) = deformed;
-    own.etadot.segment<3>(3 * n) = rate;
-    most_u = std::max(most_u, deformed.norm());
-    most_udot = std::max(most_udot, rate.norm());
-  }
-  own.eta[full.dofs()] = most_u;
-  own.etadot[full.dofs()] = most_udot;
-  out.modes = static_cast<int>(full.dofs() + 1);
-  out.eta = own.eta.data();
-  out.etadot = own.etadot.data();
-}
-
 void set_any_body(const SystemModel& model, const SystemState& state,
                   BodyIndex b, ProductTerms& own, joints::PairBody& out) {
   if (b == kWorld) return;
-  const int f = model.bodies[index(b)].full;
-  if (f < 0) {
-    set_body(model, state, index(b),
-             state.bodies[index(b)].quat_WB.toRotationMatrix(), own, out);
-    return;
-  }
-  MeanFrame frame;
-  calc_mean_frame(model, model.full_bodies[index(f)], state, frame);
-  set_full_body(model, state, index(f), frame, own, out);
+  visit_body(model, index(b),
+             [&](const auto& body) { body.set_pair_body(state, own, out); });
 }
 
-// f_n = R_HB Phi_n' force_B of each node.
-template <typename Field>
-void add_to_nodes(const joints::PairPlace& place, const Matrix3& R_HB,
-                  const Vector3& force_B, Field&& force_H) {
-  for (Eigen::Index n = 0; n < force_H.cols(); ++n) {
-    const Vector3 fraction =
-        place.Phi_B.middleCols<3>(3 * n).transpose() * force_B;
-    force_H.col(n) += R_HB * fraction;
-  }
-}
-
-void add_force(const SystemModel& model, BodyIndex body,
-               const joints::PairPlace& place, const Vector3& arm_B,
-               const Vector3& force_W, SystemTerms& terms) {
+void add_force(const SystemModel& model, BodyIndex body, const PairForce& force,
+               SystemTerms& terms) {
   if (body == kWorld) return;
-  if (const int f = model.bodies[index(body)].full; f >= 0) {
-    const joints::PairBody& moving = terms.pairs.bodies[index(body)];
-    add_to_nodes(place, terms.full[index(f)].frame.R_HB,
-                 moving.R_WB.transpose() * force_W, terms.full[index(f)].force);
-    return;
-  }
-  BodyTerms& t = terms.bodies[index(body)];
-  const Vector3 force_B = t.R_WB.transpose() * force_W;
-  t.force_W += force_W;
-  t.moment_B += arm_B.cross(force_B);
-  add_modal_force(model.bodies[index(body)], place, force_B, t,
-                  terms.products[index(body)]);
+  visit_body(model, index(body),
+             [&](const auto& own) { own.add_force(force, terms); });
 }
 
-void add_body_residual(const SystemModel& model, BodyIndex b,
-                       const joints::PairPlace& place, const Vector3& arm_B,
-                       const Vector3& force_W, const SystemTerms& terms,
+void add_body_residual(const SystemModel& model, BodyIndex body,
+                       const PairForce& force, const SystemTerms& terms,
                        VectorX& residual) {
-  if (b == kWorld) return;
-  const BodyModel& body = model.bodies[index(b)];
-  if (body.full >= 0) {
-    const FullModel& full = model.full_bodies[index(body.full)];
-    Nodes nodes(residual.data() + first_node_row(model) + full.first, 3,
-                full.mesh->node_count());
-    add_to_nodes(place, terms.full[index(body.full)].frame.R_HB,
-                 -(terms.pairs.bodies[index(b)].R_WB.transpose() * force_W),
-                 nodes);
-    return;
-  }
-  const Eigen::Index row = body.row;
-  const Vector3 force_B = terms.bodies[index(b)].R_WB.transpose() * force_W;
-  add_modal_residual(body, place, terms.pairs.bodies[index(b)].eta, force_B,
-                     residual.data() + row + 6);
-  if (!body.has_rigid_motion()) return;
-  residual.segment<3>(row) -= force_W;
-  residual.segment<3>(row + 3) -= arm_B.cross(force_B);
+  if (body == kWorld) return;
+  visit_body(model, index(body), [&](const auto& own) {
+    own.add_force_residual(force, terms, residual);
+  });
 }
 
 }  // namespace
@@ -169,42 +66,6 @@ PairMotion find_pair_motion(const SystemModel& model, const Pair& pair,
   return motion;
 }
 
-void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
-                     const Vector3& force_B, BodyTerms& terms,
-                     ProductTerms& products) {
-  for (int k = 0; k < body.modes; ++k) {
-    terms.modal_force[k] += place.Phi_B.col(k).dot(force_B);
-  }
-  for (Eigen::Index pair = 0; pair < products.force.size(); ++pair) {
-    products.force[pair] += place.Phi_B.col(body.modes + pair).dot(force_B);
-  }
-}
-
-void add_modal_residual(const BodyModel& body, const joints::PairPlace& place,
-                        const double* eta, const Vector3& force_B,
-                        double* residual) {
-  for (int k = 0; k < body.modes; ++k) {
-    residual[k] -= place.Phi_B.col(k).dot(force_B);
-  }
-  flexbody::for_each_product(
-      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
-        const double f = place.Phi_B.col(body.modes + pair).dot(force_B);
-        residual[i] -= f * eta[j];
-        if (!is_square) residual[j] -= f * eta[i];
-      });
-}
-
-void add_product_forces(const SystemModel& model, const SystemState& state,
-                        SystemTerms& terms) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (terms.products[b].force.size() == 0) continue;
-    const BodyModel& body = model.bodies[b];
-    flexbody::add_product_forces(
-        paired_of(body), terms.products[b].force.data(),
-        state.eta.data() + body.offset, terms.bodies[b].modal_force.data());
-  }
-}
-
 ProductTerms make_product_terms(const SystemModel& model, BodyIndex b) {
   const BodyModel& body = model.bodies[index(b)];
   const auto is_in_pair = [b](const Pair& pair) {
@@ -212,18 +73,12 @@ ProductTerms make_product_terms(const SystemModel& model, BodyIndex b) {
   };
   const auto is_loaded = [b](const BodyLoad& load) { return load.body == b; };
   const bool has_some =
-      body.clamped ||
+      body.is_held() ||
       std::any_of(model.pairs.begin(), model.pairs.end(), is_in_pair) ||
       std::any_of(model.body_loads.begin(), model.body_loads.end(), is_loaded);
   if (!has_some) return {};
-  if (body.full >= 0) {
-    const Eigen::Index size = count_pair_coordinates(model, b);
-    return {VectorX(), VectorX::Zero(size), VectorX::Zero(size)};
-  }
-  if (paired_of(body).empty()) return {};
-  const int size = count_coordinates(body);
-  return {VectorX::Zero(size - body.modes), VectorX::Zero(size),
-          VectorX::Zero(size)};
+  return visit_body(model, index(b),
+                    [](const auto& own) { return own.make_products(); });
 }
 
 joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
@@ -257,14 +112,9 @@ joints::PairBodies find_bodies(const Pair& pair, const PairTerms& terms) {
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms) {
   for (const std::size_t b : terms.pairs.members) {
-    ProductTerms& own = terms.products[b];
-    if (const int f = model.bodies[b].full; f >= 0) {
-      set_full_body(model, state, index(f), terms.full[index(f)].frame, own,
-                    terms.pairs.bodies[b]);
-    } else {
-      set_body(model, state, b, terms.bodies[b].R_WB, own,
-               terms.pairs.bodies[b]);
-    }
+    visit_body(model, b, [&](const auto& own) {
+      own.set_pair_body(state, terms, terms.products[b], terms.pairs.bodies[b]);
+    });
   }
 }
 
@@ -307,9 +157,9 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
       point.moving = point.acting;
       point.velocity_W = find_velocity(bodies.B, point.on_B) -
                          find_velocity(bodies.A, point.on_A);
-      add_force(model, pair.body_A, point.on_A, point.acting.A, -point.force_W,
-                terms);
-      add_force(model, pair.body_B, point.on_B, point.acting.B, point.force_W,
+      add_force(model, pair.body_A,
+                {point.on_A, point.acting.A, -point.force_W}, terms);
+      add_force(model, pair.body_B, {point.on_B, point.acting.B, point.force_W},
                 terms);
     }
   }
@@ -323,11 +173,11 @@ bool has_points(const SystemTerms& terms) {
 }
 
 bool acts_on_nodes(const SystemModel& model, const SystemTerms& terms) {
-  if (model.full_bodies.empty()) return false;
+  if (model.nodal_count == 0) return false;
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     if (terms.pairs.responses[i].points().empty()) continue;
     for (const BodyIndex b : {model.pairs[i].body_A, model.pairs[i].body_B}) {
-      if (b != kWorld && model.bodies[index(b)].full >= 0) return true;
+      if (b != kWorld && !has_dense_block(model, index(b))) return true;
     }
   }
   return false;
@@ -336,9 +186,9 @@ bool acts_on_nodes(const SystemModel& model, const SystemTerms& terms) {
 void add_residual(const SystemModel& model, const Pair& pair,
                   const joints::PairPoint& point, const Vector3& force_W,
                   const SystemTerms& terms, VectorX& residual) {
-  add_body_residual(model, pair.body_A, point.on_A, point.acting.A, -force_W,
+  add_body_residual(model, pair.body_A, {point.on_A, point.acting.A, -force_W},
                     terms, residual);
-  add_body_residual(model, pair.body_B, point.on_B, point.acting.B, force_W,
+  add_body_residual(model, pair.body_B, {point.on_B, point.acting.B, force_W},
                     terms, residual);
 }
 

@@ -79,23 +79,6 @@ class PairMotion {
 void apply_pairs(const SystemModel& model, const SystemState& state,
                  const EvaluationTime& now, SystemTerms& terms);
 
-/// Adds a force on a body at a place to the forces on its modes and on their
-/// products. @param force_B body frame [N]
-void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
-                     const Vector3& force_B, BodyTerms& terms,
-                     ProductTerms& products);
-
-/// Subtracts the modal forces at eta, products included, of a force on a body
-/// at a place from the residual. @param force_B body frame [N]
-void add_modal_residual(const BodyModel& body, const joints::PairPlace& place,
-                        const double* eta, const Vector3& force_B,
-                        double* residual);
-
-/// Adds the forces on products to those on the modes, once all are known.
-/// @param state supplies eta
-void add_product_forces(const SystemModel& model, const SystemState& state,
-                        SystemTerms& terms);
-
 /// @throws NumericalError if its force, energy or dissipation is not finite.
 void check_finite(const joints::PairResponse& response);
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

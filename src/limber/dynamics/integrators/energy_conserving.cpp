@@ -9,12 +9,13 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/step_result.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

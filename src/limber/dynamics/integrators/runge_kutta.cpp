@@ -3,10 +3,10 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {

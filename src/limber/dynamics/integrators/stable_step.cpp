@@ -9,8 +9,8 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/system/state_increments.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {

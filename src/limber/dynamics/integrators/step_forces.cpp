@@ -2,12 +2,13 @@
 #include "limber/dynamics/integrators/step_forces.hpp"
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
-#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/integrators/step_pairs.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/terms/maxwell.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
@@ -333,9 +334,9 @@ void calc_step_forces(const SystemModel& model, const SystemState& begin,
   for (const BodyLoad& load : model.body_loads) {
     apply_body_load(step, load, terms);
   }
-  add_product_forces(model, middle, terms);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     BodyTerms& t = terms.bodies[b];
+    add_product_forces(model.bodies[b], middle, terms.products[b], t);
     t.moment_B = motion.bodies[b].dual_R.transpose() * t.moment_B.eval();
   }
 }

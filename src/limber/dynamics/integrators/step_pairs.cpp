@@ -2,6 +2,7 @@
 #include "limber/dynamics/integrators/step_pairs.hpp"
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 
 namespace limber::dynamics {

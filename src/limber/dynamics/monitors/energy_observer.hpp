@@ -7,12 +7,12 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/energy_flows.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/energy_account.hpp"
 #include "limber/dynamics/monitors/energy_groups.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

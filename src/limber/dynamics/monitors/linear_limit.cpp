@@ -10,8 +10,8 @@
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 
 namespace limber::dynamics {
 namespace {

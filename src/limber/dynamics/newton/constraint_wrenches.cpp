@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/newton/constraint_wrenches.hpp"
 
-#include <algorithm>
-
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
@@ -17,11 +15,7 @@ constexpr double kInstant = 1e24;
 }  // namespace
 
 void set_constraint_wrenches(const SystemModel& model, SystemState& state) {
-  if (std::ranges::none_of(model.couplers, [](const Coupler& coupler) {
-        return joints::is_ideal(coupler.law);
-      })) {
-    return;
-  }
+  if (!has_ideal_joints(model)) return;
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
   const VectorX none = make_unknowns(model);

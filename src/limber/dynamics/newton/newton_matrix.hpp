@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "limber/dynamics/bodies/body_factor.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/newton/lu_plan.hpp"
 #include "limber/dynamics/newton/pair_tangents.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/newton/lu_plan.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 namespace limber::dynamics {
 

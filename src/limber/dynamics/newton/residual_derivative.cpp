@@ -7,10 +7,10 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/bodies/body.hpp"
 #include "limber/dynamics/bodies/body_increment.hpp"
-#include "limber/dynamics/terms/attachment_jacobian.hpp"
 #include "limber/dynamics/newton/link_rows.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -13,9 +13,9 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 namespace limber::dynamics {
 namespace {

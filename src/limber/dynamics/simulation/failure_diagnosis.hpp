@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 
 /// Diagnosis of simulations that fail.
 namespace limber::dynamics {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 
 namespace limber::dynamics {
 

@@ -2,8 +2,8 @@
 #include "limber/dynamics/simulation/output_state.hpp"
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/interpolation.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -10,7 +10,6 @@
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/control/external_law.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
@@ -20,6 +19,7 @@
 #include "limber/dynamics/simulation/single_run.hpp"
 #include "limber/dynamics/simulation/start_warnings.hpp"
 #include "limber/dynamics/simulation/time_loop.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 namespace limber::dynamics {
 namespace {

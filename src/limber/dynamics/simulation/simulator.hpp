@@ -6,12 +6,12 @@
 #include <span>
 #include <stop_token>
 
-#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
 #include "limber/dynamics/simulation/simulation_statistics.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 
 namespace limber::dynamics {
 

@@ -9,6 +9,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/exact_modes.hpp"

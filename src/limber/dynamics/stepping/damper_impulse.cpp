@@ -206,7 +206,7 @@ class DamperFilter {
       }
       pair.uncouple();
     }
-    clear_forces(terms_);
+    clear_forces(model_, terms_);
   }
 
   const SystemModel& model_;

@@ -9,6 +9,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -48,4 +48,10 @@ LoadIndex SystemModel::find_load(std::string_view name) const {
   return LoadIndex(find_name("load", name, names_of(loads)));
 }
 
+bool has_ideal_joints(const SystemModel& model) {
+  return std::ranges::any_of(model.couplers, [](const Coupler& coupler) {
+    return joints::is_ideal(coupler.law);
+  });
+}
+
 }  // namespace limber::dynamics

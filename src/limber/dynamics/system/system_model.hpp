@@ -167,4 +167,7 @@ struct SystemModel {
   [[nodiscard]] LoadIndex find_load(std::string_view name) const;
 };
 
+/// Whether a joint holds its directions by constraints, not by stiffness.
+[[nodiscard]] bool has_ideal_joints(const SystemModel& model);
+
 }  // namespace limber::dynamics

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/terms/kinematics.hpp"
 
-#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-void rest_in_world(const Attachment& attachment, AttachmentMotion& motion) {
-  motion.R_WB.setIdentity();
-  motion.R_WF = attachment.R_BF;
-  motion.arm_B = attachment.p_BF;
-  motion.J_psi.setIdentity();
-  motion.p_WF = attachment.p_BF;
-  motion.v_WF_W.setZero();
-  motion.w_WF_W.setZero();
-}
 
 // The tables at eta, and the rotation vector. @returns the translation
 Vector3 calc_second_order(const Attachment& attachment, const double* eta,
@@ -31,15 +21,20 @@ Vector3 calc_second_order(const Attachment& attachment, const double* eta,
 
 }  // namespace
 
-void calc_attachment_motion(const SystemModel& model,
-                            const Attachment& attachment,
+void rest_in_world(const Attachment& attachment, AttachmentMotion& motion) {
+  motion.R_WB.setIdentity();
+  motion.R_WF = attachment.R_BF;
+  motion.arm_B = attachment.p_BF;
+  motion.J_psi.setIdentity();
+  motion.p_WF = attachment.p_BF;
+  motion.v_WF_W.setZero();
+  motion.w_WF_W.setZero();
+}
+
+void calc_attachment_motion(const BodyModel& body, const Attachment& attachment,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion) {
-  if (attachment.body == kWorld) return rest_in_world(attachment, motion);
-  const auto b = static_cast<std::size_t>(attachment.body);
-  const BodyModel& body = model.bodies[b];
-  const BodyState& rigid = state.bodies[b];
-
+  const BodyState& rigid = state.bodies[index(attachment.body)];
   motion.R_WB = R_WB;
   motion.arm_B = attachment.p_BF;
   Vector3 w_B = rigid.w_WB_B;
@@ -73,16 +68,12 @@ void calc_attachment_motion(const SystemModel& model,
   motion.w_WF_W = R_WB * w_B;
 }
 
-void calc_nodal_attachment(const SystemModel& model,
+void calc_nodal_attachment(const FullModel& full, const Pose& X_WH,
                            const Attachment& attachment,
                            const SystemState& state, NodalFrameMotion& nodal,
                            AttachmentMotion& motion) {
-  const auto b = static_cast<std::size_t>(attachment.body);
-  const auto f = static_cast<std::size_t>(model.bodies[b].full);
-  const FullModel& full = model.full_bodies[f];
   calc_nodal_frame(*attachment.nodal, nodes_of(full, state.u_H),
                    nodes_of(full, state.udot_H), nodal);
-  const Pose& X_WH = state.X_WH[f];
   motion.R_WB = X_WH.R * nodal.R_HB;
   motion.R_WF = X_WH.R * nodal.R_HB * attachment.R_BF;
   motion.arm_B.setZero();
@@ -144,38 +135,6 @@ SystemState make_state(const SystemModel& model) {
   state.pair_memory = PairMemory(model.pair_memory_size);
   state.far_pairs.assign(model.pairs.size(), 0);
   return state;
-}
-
-FrameMotion find_frame_motion(const SystemModel& model,
-                              const SystemState& state,
-                              AttachmentIndex attachment) {
-  LIMBER_EXPECT(attachment >= 0 &&
-                attachment < static_cast<int>(model.attachments.size()));
-  const Attachment& a = model.attachments[static_cast<std::size_t>(attachment)];
-  if (a.nodal) {
-    NodalFrameMotion nodal;
-    AttachmentMotion motion;
-    calc_nodal_attachment(model, a, state, nodal, motion);
-    return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
-  }
-  Matrix3 R_WB = Matrix3::Identity();
-  if (a.body != kWorld) {
-    R_WB = state.bodies[static_cast<std::size_t>(a.body)]
-               .quat_WB.toRotationMatrix();
-  }
-  AttachmentMotion motion;
-  calc_attachment_motion(model, a, state, R_WB, motion);
-  return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
-}
-
-joints::RelativeMotion find_relative_motion(const SystemModel& model,
-                                            const SystemState& state,
-                                            CouplerIndex coupler) {
-  LIMBER_EXPECT(coupler >= 0 &&
-                coupler < static_cast<int>(model.couplers.size()));
-  const Coupler& c = model.couplers[static_cast<std::size_t>(coupler)];
-  return relate(find_frame_motion(model, state, c.frame_F),
-                find_frame_motion(model, state, c.frame_M));
 }
 
 }  // namespace limber::dynamics

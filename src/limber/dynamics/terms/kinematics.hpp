@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/kernels/column_kernels.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 
 namespace limber::dynamics {
 
@@ -58,17 +58,24 @@ struct AttachmentMotion {
   return {Phi_B.data(), Psi_B.data(), static_cast<std::size_t>(Phi_B.cols())};
 }
 
-/// Fills `motion`; `R_WB` is the body's rotation matrix (not read for world).
-void calc_attachment_motion(const SystemModel& model,
-                            const Attachment& attachment,
+/// Of an attachment on the world.
+void rest_in_world(const Attachment& attachment, AttachmentMotion& motion);
+
+/// Of an attachment on a modal body. @param R_WB the body's rotation matrix
+void calc_attachment_motion(const BodyModel& body, const Attachment& attachment,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion);
 
-/// The same for an attachment on an unreduced body. Fills `nodal`, too.
-void calc_nodal_attachment(const SystemModel& model,
+/// Of an attachment on an unreduced body with home frame X_WH. Fills `nodal`,
+/// too.
+void calc_nodal_attachment(const FullModel& full, const Pose& X_WH,
                            const Attachment& attachment,
                            const SystemState& state, NodalFrameMotion& nodal,
                            AttachmentMotion& motion);
+
+[[nodiscard]] inline FrameMotion frame_motion(const AttachmentMotion& motion) {
+  return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
+}
 
 /// Motion of frame M in frame F, from their motions in the world.
 [[nodiscard]] joints::RelativeMotion relate(const FrameMotion& F,

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/terms/mean_frame.hpp"
-#include "limber/dynamics/system/system_model.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coordinates/scalar_motion.hpp"
 
@@ -129,7 +129,5 @@ struct SystemTerms {
   PairTerms pairs;                               ///< by calc_forces
   std::vector<ProductTerms> products;            ///< one a body, by calc_forces
 };
-
-[[nodiscard]] SystemTerms make_terms(const SystemModel& model);
 
 }  // namespace limber::dynamics

@@ -6,8 +6,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 
 namespace limber::scene {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/dynamics/integrators/runge_kutta.hpp"
 #include "limber/dynamics/integrators/splitting.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/energy_balance.hpp"
 #include "limber/joints/bushing.hpp"
 #include "limber/joints/point_spring.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/energy_flows.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/paired_bodies.hpp"
 

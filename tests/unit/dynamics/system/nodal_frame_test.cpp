@@ -7,9 +7,9 @@
 #include <random>
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/terms/mean_frame.hpp"
-#include "limber/dynamics/terms/attachment_jacobian.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/attachment_jacobian.hpp"
+#include "limber/dynamics/terms/mean_frame.hpp"
 #include "limber/flexbody/model/interface_motion.hpp"
 #include "support/spring_network.hpp"
 

@@ -9,11 +9,12 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/bodies/modal_forces.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "support/elastic_kinds.hpp"
 #include "support/point_mass_body.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/dynamics/system/model_fields.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/system_terms.hpp"
 #include "limber/joints/pairs/point_springs.hpp"
 #include "support/full_lattice.hpp"
 #include "support/paired_bodies.hpp"

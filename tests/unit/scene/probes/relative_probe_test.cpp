@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/terms/kinematics.hpp"
 #include "limber/scene/probes/point_probe.hpp"
 
 namespace limber::scene::relative_probe_test {
