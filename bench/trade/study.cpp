@@ -5,11 +5,12 @@
 #include <chrono>
 #include <utility>
 
-#include "limber/app/compare/comparison.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/results/energy_error.hpp"
+#include "limber/runs/compare/comparison.hpp"
+#include "limber/runs/timed_reducer.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::trade {
@@ -68,7 +69,7 @@ void find_cost(Outcome& outcome) {
   double nodes = time_nodes(outcome);
   const auto is_enough = [&](int count) {
     if (outcome.choice.repeats > 0) return count >= outcome.choice.repeats;
-    return total >= app::kEnough;
+    return total >= runs::kEnough;
   };
   for (int count = 1; !is_enough(count); ++count) {
     const double seconds = runs::repeat_timing(run, {});
@@ -130,7 +131,7 @@ const Outcome& Study::find(const std::string& name) const {
 Outcome Study::simulate(const Choice& choice) const {
   Outcome outcome;
   outcome.choice = choice;
-  const scene::Reducer reducer = app::time_reductions(
+  const scene::Reducer reducer = runs::time_reductions(
       app::make_reducer({}),
       [&](const std::string&, double seconds) { outcome.offline += seconds; });
   outcome.run = runs::simulate_scene(load(file_, choice),

@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
+#include "limber/app/compare/comparison_run.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/explanation.hpp"
 #include "limber/app/reports/frequency_report.hpp"
@@ -68,8 +69,8 @@ py::object explain(const fs::path& folder) {
   return to_python(app::explain(app::read_run_summary(folder)));
 }
 
-app::Axes read_axes(const py::dict& wish) {
-  app::Axes axes;
+runs::Axes read_axes(const py::dict& wish) {
+  runs::Axes axes;
   for (const auto& name : wish["levels"].cast<std::vector<std::string>>()) {
     axes.levels.push_back(dynamics::parse_fidelity(name));
   }
@@ -79,8 +80,8 @@ app::Axes read_axes(const py::dict& wish) {
   return axes;
 }
 
-app::ReferenceWish read_reference(const py::dict& wish) {
-  app::ReferenceWish reference;
+runs::ReferenceWish read_reference(const py::dict& wish) {
+  runs::ReferenceWish reference;
   const auto level = wish["reference"].cast<std::optional<std::string>>();
   if (level) reference.level = dynamics::parse_fidelity(*level);
   const auto scheme =
@@ -94,13 +95,13 @@ app::ReferenceWish read_reference(const py::dict& wish) {
 /// @param wish of the arguments of Scenario.compare
 py::object compare(const scene::Scene& scene, const py::dict& wish,
                    const fs::path& cache) {
-  app::ComparisonSettings settings;
+  app::ComparisonRequest settings;
   settings.scenario = scene.scenario.file;
   settings.settings = scene.overrides.settings;
   settings.cache = cache;
   settings.repeats = wish["repeats"].cast<int>();
-  const app::Axes axes = read_axes(wish);
-  const app::ReferenceWish reference = read_reference(wish);
+  const runs::Axes axes = read_axes(wish);
+  const runs::ReferenceWish reference = read_reference(wish);
   const auto result = run_alone([&](const Progress& watch) {
     bool is_interrupted = false;
     settings.watch = [&](std::string_view what, double fraction) {
@@ -112,8 +113,8 @@ py::object compare(const scene::Scene& scene, const py::dict& wish,
         throw;
       }
     };
-    const app::ComparisonPlan plan = make_plan(axes, reference, scene);
-    const app::Comparison found = run_comparison(plan, settings);
+    const runs::ComparisonPlan plan = make_plan(axes, reference, scene);
+    const runs::Comparison found = run_comparison(plan, settings);
     if (is_interrupted) throw dynamics::Interrupted("interrupted");
     return app::to_json(found);
   });

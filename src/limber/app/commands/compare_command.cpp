@@ -7,11 +7,9 @@
 #include <string>
 
 #include "limber/app/commands/commands.hpp"
-#include "limber/app/compare/comparison.hpp"
 #include "limber/app/compare/comparison_pictures.hpp"
 #include "limber/app/compare/comparison_report.hpp"
-#include "limber/app/compare/comparison_selection.hpp"
-#include "limber/app/console/percent.hpp"
+#include "limber/app/compare/comparison_run.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/list_option.hpp"
 #include "limber/app/options/scene_loading.hpp"
@@ -20,6 +18,8 @@
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/percent.hpp"
+#include "limber/runs/compare/comparison_selection.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/scenario_writer.hpp"
 #include "limber/scene/text/toml_file.hpp"
@@ -34,10 +34,10 @@ struct CompareOptions {
   std::string scenario;
   SettingOptions settings;
   std::vector<std::string> levels;
-  Axes axes;  ///< without levels
+  runs::Axes axes;  ///< without levels
   std::string reference;
   std::string reference_integrator;
-  ReferenceWish wish;  ///< without a level and an integrator
+  runs::ReferenceWish wish;  ///< without a level and an integrator
   std::string tolerance;
   std::string measure;
   int repeats = 0;
@@ -47,16 +47,16 @@ struct CompareOptions {
   bool json = false;
 };
 
-Axes make_axes(const CompareOptions& options) {
-  Axes axes = options.axes;
+runs::Axes make_axes(const CompareOptions& options) {
+  runs::Axes axes = options.axes;
   for (const std::string& name : options.levels) {
     axes.levels.push_back(dynamics::parse_fidelity(name));
   }
   return axes;
 }
 
-ReferenceWish make_wish(const CompareOptions& options) {
-  ReferenceWish wish = options.wish;
+runs::ReferenceWish make_wish(const CompareOptions& options) {
+  runs::ReferenceWish wish = options.wish;
   if (!options.reference.empty()) {
     wish.level = dynamics::parse_fidelity(options.reference);
   }
@@ -66,20 +66,20 @@ ReferenceWish make_wish(const CompareOptions& options) {
   return wish;
 }
 
-std::optional<Demand> make_demand(const CompareOptions& options) {
+std::optional<runs::Demand> make_demand(const CompareOptions& options) {
   if (options.tolerance.empty() && !options.measure.empty()) {
     throw InputError(
         "--measure selects the error that --tolerance applies to; give "
         "--tolerance as well");
   }
-  const ErrorMeasure measure =
-      parse_error_measure(options.measure.empty() ? "both" : options.measure);
+  const runs::ErrorMeasure measure = runs::parse_error_measure(
+      options.measure.empty() ? "both" : options.measure);
   if (options.tolerance.empty()) return std::nullopt;
-  return Demand{parse_tolerance(options.tolerance), measure};
+  return runs::Demand{runs::parse_tolerance(options.tolerance), measure};
 }
 
-ComparisonSettings make_settings(const CompareOptions& options) {
-  ComparisonSettings settings;
+ComparisonRequest make_settings(const CompareOptions& options) {
+  ComparisonRequest settings;
   settings.scenario = options.scenario;
   settings.folder = find_results_folder(
       options.out, fs::path(options.scenario).stem().string() + "-compare");
@@ -94,7 +94,7 @@ ComparisonSettings make_settings(const CompareOptions& options) {
 }
 
 /// Settings that the file does not contain, because they belong to the robot.
-std::string describe_robot_settings(const ComparisonSettings& settings) {
+std::string describe_robot_settings(const ComparisonRequest& settings) {
   std::string text;
   const auto sorted = scene::sort_settings(
       settings.settings, scene::parse_toml_file(settings.scenario));
@@ -105,8 +105,8 @@ std::string describe_robot_settings(const ComparisonSettings& settings) {
   return text;
 }
 
-void write_chosen(const ComparedRun& run, const Demand& demand,
-                  const ComparisonSettings& settings, const fs::path& place) {
+void write_chosen(const runs::ComparedRun& run, const runs::Demand& demand,
+                  const ComparisonRequest& settings, const fs::path& place) {
   const auto error = find_error(run.error->error, demand.measure);
   write_text(
       place / "chosen.toml",
@@ -122,7 +122,7 @@ void write_chosen(const ComparedRun& run, const Demand& demand,
                                   settings.folder)));
 }
 
-Json chosen_to_json(const Demand& demand, const ComparedRun* chosen,
+Json chosen_to_json(const runs::Demand& demand, const runs::ComparedRun* chosen,
                     const fs::path& file) {
   Json json{{"tolerance", demand.tolerance},
             {"measure", to_string(demand.measure)},
@@ -134,9 +134,11 @@ Json chosen_to_json(const Demand& demand, const ComparedRun* chosen,
   return json;
 }
 
-std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
-                            const Comparison& comparison, const fs::path& file,
-                            const ComparisonSettings& settings) {
+std::string describe_chosen(const runs::Demand& demand,
+                            const runs::ComparedRun& chosen,
+                            const runs::Comparison& comparison,
+                            const fs::path& file,
+                            const ComparisonRequest& settings) {
   return fmt::format(
       "Cheapest within {}: '{}', error {}, {:.3g} times cheaper than the "
       "reference; {}\n{}",
@@ -149,9 +151,9 @@ std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
 /// Text and pictures of the comparison.
 class ComparisonWriter {
  public:
-  ComparisonWriter(const Comparison& comparison,
-                   const std::optional<Demand>& demand,
-                   const ComparisonSettings& settings)
+  ComparisonWriter(const runs::Comparison& comparison,
+                   const std::optional<runs::Demand>& demand,
+                   const ComparisonRequest& settings)
       : comparison_(comparison),
         demand_(demand),
         settings_(settings),
@@ -186,32 +188,33 @@ class ComparisonWriter {
   }
 
  private:
-  const Comparison& comparison_;
-  const std::optional<Demand>& demand_;
-  const ComparisonSettings& settings_;
-  const ComparedRun* chosen_;
+  const runs::Comparison& comparison_;
+  const std::optional<runs::Demand>& demand_;
+  const ComparisonRequest& settings_;
+  const runs::ComparedRun* chosen_;
   fs::path file_;
   Json json_;
 };
 
-std::set<std::string> find_run_folders(const ComparisonPlan& plan,
-                                       const ComparisonSettings& settings) {
+std::set<std::string> find_run_folders(const runs::ComparisonPlan& plan,
+                                       const ComparisonRequest& settings) {
   if (!settings.keep_runs) return {};
   std::set<std::string> names = {"reference"};
-  for (const Choice& choice : plan.runs) names.insert(make_folder_name(choice));
+  for (const runs::Choice& choice : plan.runs)
+    names.insert(make_folder_name(choice));
   return names;
 }
 
 void compare(const CompareOptions& options) {
-  const Axes axes = make_axes(options);
-  const ReferenceWish wish = make_wish(options);
-  const std::optional<Demand> demand = make_demand(options);
-  const ComparisonSettings settings = make_settings(options);
+  const runs::Axes axes = make_axes(options);
+  const runs::ReferenceWish wish = make_wish(options);
+  const std::optional<runs::Demand> demand = make_demand(options);
+  const ComparisonRequest settings = make_settings(options);
   const scene::Scene scene =
       load_with_notes(options.scenario, {.settings = settings.settings});
-  const ComparisonPlan plan = make_plan(axes, wish, scene);
+  const runs::ComparisonPlan plan = make_plan(axes, wish, scene);
   // Errors of the scene are found before anything is written.
-  for (const Choice& choice : plan.runs) {
+  for (const runs::Choice& choice : plan.runs) {
     (void)scene::load_scene(options.scenario,
                             to_overrides(choice, settings.settings));
   }
@@ -220,7 +223,7 @@ void compare(const CompareOptions& options) {
   // Before the runs, so that a user can stop them at once.
   const std::string note = describe_default_reference(plan);
   if (!note.empty()) fmt::print(stderr, "limber: {}\n", note);
-  const Comparison comparison = run_comparison(plan, settings);
+  const runs::Comparison comparison = run_comparison(plan, settings);
   const ComparisonWriter writer(comparison, demand, settings);
   folder.write([&](const fs::path& place) {
     writer.write(place, scene.scenario.output.pictures);

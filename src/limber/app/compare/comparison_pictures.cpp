@@ -3,27 +3,28 @@
 
 #include <algorithm>
 
-#include "limber/app/compare/comparison_selection.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/reports/probe_pictures.hpp"
 #include "limber/results/charts/trade_picture.hpp"
 #include "limber/results/draw_all.hpp"
+#include "limber/runs/compare/comparison_selection.hpp"
 
 namespace limber::app {
 namespace {
 
-std::optional<double> drawn_error_of(const ComparedRun& run) {
+std::optional<double> drawn_error_of(const runs::ComparedRun& run) {
   if (!run.error) return std::nullopt;
-  return find_error(run.error->error, ErrorMeasure::both);
+  return find_error(run.error->error, runs::ErrorMeasure::both);
 }
 
 /// For each level the completed run with the smallest error.
-std::vector<const ComparedRun*> find_best(const Comparison& comparison) {
-  std::vector<const ComparedRun*> best;
-  for (const ComparedRun& run : comparison.runs) {
+std::vector<const runs::ComparedRun*> find_best(
+    const runs::Comparison& comparison) {
+  std::vector<const runs::ComparedRun*> best;
+  for (const runs::ComparedRun& run : comparison.runs) {
     if (!run.error) continue;
-    const auto same =
-        std::find_if(best.begin(), best.end(), [&](const ComparedRun* other) {
+    const auto same = std::find_if(
+        best.begin(), best.end(), [&](const runs::ComparedRun* other) {
           return other->choice.level == run.choice.level;
         });
     if (same == best.end()) {
@@ -35,9 +36,10 @@ std::vector<const ComparedRun*> find_best(const Comparison& comparison) {
   return best;
 }
 
-std::vector<results::TradePoint> list_points(const Comparison& comparison) {
+std::vector<results::TradePoint> list_points(
+    const runs::Comparison& comparison) {
   std::vector<results::TradePoint> points;
-  for (const ComparedRun& run : comparison.runs) {
+  for (const runs::ComparedRun& run : comparison.runs) {
     if (!run.error) continue;
     const results::MotionError& error = run.error->error;
     // Rigid links only: use the error that exists.
@@ -52,7 +54,7 @@ std::vector<results::TradePoint> list_points(const Comparison& comparison) {
 
 }  // namespace
 
-void draw_comparison(const Comparison& comparison,
+void draw_comparison(const runs::Comparison& comparison,
                      const std::filesystem::path& folder,
                      std::optional<double> tolerance) {
   const std::string why = results::draw_trade(
@@ -63,7 +65,7 @@ void draw_comparison(const Comparison& comparison,
     return;  // the next would fail too
   }
   std::vector<NamedHistory> lines;
-  for (const ComparedRun* run : find_best(comparison)) {
+  for (const runs::ComparedRun* run : find_best(comparison)) {
     lines.push_back({std::string(to_string(run->choice.level)), &run->history});
   }
   lines.push_back({"reference", &comparison.reference.history});

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 
-#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/app/compare/contact_comparison.hpp"
 #include "limber/app/console/json.hpp"
-#include "limber/app/console/percent.hpp"
+#include "limber/common/percent.hpp"
+#include "limber/runs/compare/comparison_selection.hpp"
 
 namespace limber::app {
 namespace {
@@ -47,7 +48,7 @@ std::string find_worst(const results::SystemMotionError& error) {
   const results::BodyMotionError* worst = nullptr;
   double most = -1.0;
   for (const results::BodyMotionError& body : error.bodies) {
-    const auto own = find_error(body.error, ErrorMeasure::both);
+    const auto own = find_error(body.error, runs::ErrorMeasure::both);
     if (!own || *own <= most) continue;
     worst = &body;
     most = *own;
@@ -68,7 +69,7 @@ const Cells kHeader = {"run",         "modes",      "displacement", "rigid",
                        "deformation", "worst body", "drift",        "online",
                        "cheaper",     "offline"};
 
-Cells make_cells(const ComparedRun& run, double reference_cost) {
+Cells make_cells(const runs::ComparedRun& run, double reference_cost) {
   Cells cells = {describe(run.choice), fmt::format("{}", run.cost.modes)};
   if (run.error) {
     const results::MotionError& error = run.error->error;
@@ -109,9 +110,9 @@ std::string align(const std::vector<Cells>& rows) {
   return text;
 }
 
-std::string list_contacts(const Comparison& comparison) {
+std::string list_contacts(const runs::Comparison& comparison) {
   std::vector<NamedContacts> runs;
-  for (const ComparedRun& run : comparison.runs) {
+  for (const runs::ComparedRun& run : comparison.runs) {
     runs.push_back({describe(run.choice), run.contacts});
   }
   const std::string text =
@@ -122,7 +123,7 @@ std::string list_contacts(const Comparison& comparison) {
 
 }  // namespace
 
-Json to_json(const ComparedRun& run, const ComparedRun* reference) {
+Json to_json(const runs::ComparedRun& run, const runs::ComparedRun* reference) {
   Json json{{"name", describe(run.choice)},
             {"fidelity", std::string(to_string(run.choice.level))},
             {"basis", to_json(run.choice.basis)},
@@ -155,9 +156,9 @@ Json to_json(const ComparedRun& run, const ComparedRun* reference) {
   return json;
 }
 
-Json to_json(const Comparison& comparison) {
+Json to_json(const runs::Comparison& comparison) {
   Json runs = Json::array();
-  for (const ComparedRun& run : comparison.runs) {
+  for (const runs::ComparedRun& run : comparison.runs) {
     runs.push_back(to_json(run, &comparison.reference));
     const double cost = run.cost.online;
     runs.back()["times_cheaper"] =
@@ -173,17 +174,17 @@ Json to_json(const Comparison& comparison) {
   return json;
 }
 
-std::string to_text(const Comparison& comparison) {
+std::string to_text(const runs::Comparison& comparison) {
   std::vector<Cells> rows = {kHeader};
   const double cost = comparison.reference.cost.online;
-  for (const ComparedRun& run : comparison.runs) {
+  for (const runs::ComparedRun& run : comparison.runs) {
     rows.push_back(make_cells(run, cost));
   }
   rows.push_back(make_cells(comparison.reference, cost));
   for (std::size_t c = 2; c <= 5; ++c) rows.back()[c] = "";
   rows.back()[2] = "reference";
   std::string text = align(rows);
-  for (const ComparedRun& run : comparison.runs) {
+  for (const runs::ComparedRun& run : comparison.runs) {
     if (run.stopped.empty()) continue;
     text += fmt::format("'{}' {}\n", describe(run.choice), run.stopped);
   }

@@ -3,16 +3,17 @@
 
 #include <string>
 
-#include "limber/app/compare/comparison.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/runs/compare/comparison.hpp"
 
 namespace limber::app {
 
 /// @param reference null for the reference itself
-[[nodiscard]] Json to_json(const ComparedRun& run,
-                           const ComparedRun* reference);
-[[nodiscard]] Json to_json(const Comparison& comparison);
+[[nodiscard]] Json to_json(const runs::ComparedRun& run,
+                           const runs::ComparedRun* reference);
+[[nodiscard]] Json to_json(const runs::Comparison& comparison);
 
 /// A table with one line per run, the reference last.
-[[nodiscard]] std::string to_text(const Comparison& comparison);
+[[nodiscard]] std::string to_text(const runs::Comparison& comparison);
 
 }  // namespace limber::app

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "limber/app/console/json.hpp"
 #include "limber/app/reports/contact_report.hpp"
@@ -12,20 +11,15 @@
 namespace limber::app {
 namespace {
 
-const PairContact* find_pair(const std::vector<PairContact>& contacts,
-                             const std::string& pair) {
+const runs::PairContact* find_pair(
+    const std::vector<runs::PairContact>& contacts, const std::string& pair) {
   const auto found =
       std::find_if(contacts.begin(), contacts.end(),
-                   [&](const PairContact& c) { return c.pair == pair; });
+                   [&](const runs::PairContact& c) { return c.pair == pair; });
   return found == contacts.end() ? nullptr : &*found;
 }
 
-std::optional<double> find_relative(double value, double reference) {
-  if (reference == 0.0) return std::nullopt;
-  return value / reference - 1.0;
-}
-
-Json to_json(const ContactDifference& difference) {
+Json to_json(const runs::ContactDifference& difference) {
   return Json{{"impulse", or_null(difference.impulse)},
               {"peak_force", or_null(difference.peak_force)},
               {"duration", or_null(difference.duration)},
@@ -43,13 +37,14 @@ std::string to_cell(const std::optional<double>& restitution) {
 }
 
 std::string to_line(const std::string& run, std::size_t width,
-                    const PairContact* contact, const PairContact* reference) {
+                    const runs::PairContact* contact,
+                    const runs::PairContact* reference) {
   if (contact == nullptr) {
     return fmt::format("{:<{}}  does not touch\n", run, width);
   }
-  const ContactDifference error = reference == nullptr
-                                      ? ContactDifference{}
-                                      : find_difference(*contact, *reference);
+  const runs::ContactDifference error =
+      reference == nullptr ? runs::ContactDifference{}
+                           : find_difference(*contact, *reference);
   return fmt::format("{:<{}}  {:>20}  {:>20}  {:>20}  {:>7}  {:>7}  {:>7}\n",
                      run, width, to_cell(contact->impulse, error.impulse),
                      to_cell(contact->peak_force, error.peak_force),
@@ -62,7 +57,7 @@ std::vector<std::string> list_pairs(const std::vector<NamedContacts>& runs,
                                     const NamedContacts& reference) {
   std::vector<std::string> pairs;
   const auto add = [&](const NamedContacts& run) {
-    for (const PairContact& contact : run.contacts) {
+    for (const runs::PairContact& contact : run.contacts) {
       if (std::find(pairs.begin(), pairs.end(), contact.pair) == pairs.end()) {
         pairs.push_back(contact.pair);
       }
@@ -75,45 +70,10 @@ std::vector<std::string> list_pairs(const std::vector<NamedContacts>& runs,
 
 }  // namespace
 
-std::vector<PairContact> sum_up(
-    const std::vector<dynamics::ContactRecord>& records) {
-  std::vector<PairContact> contacts;
-  std::map<std::string, std::size_t> places;
-  std::map<std::string, double> largest;  // impulse
-  for (const dynamics::ContactRecord& record : records) {
-    const auto [place, is_new] = places.emplace(record.pair, contacts.size());
-    if (is_new) contacts.emplace_back().pair = record.pair;
-    PairContact& contact = contacts[place->second];
-    ++contact.impacts;
-    contact.touches += record.touches;
-    contact.impulse += record.impulse;
-    contact.peak_force = std::max(contact.peak_force, record.peak_force);
-    contact.duration += record.duration;
-    if (is_new || record.impulse > largest[record.pair]) {
-      largest[record.pair] = record.impulse;
-      contact.restitution = record.restitution();
-    }
-  }
-  return contacts;
-}
-
-ContactDifference find_difference(const PairContact& contact,
-                                  const PairContact& reference) {
-  ContactDifference difference;
-  difference.impulse = find_relative(contact.impulse, reference.impulse);
-  difference.peak_force =
-      find_relative(contact.peak_force, reference.peak_force);
-  difference.duration = find_relative(contact.duration, reference.duration);
-  if (contact.restitution && reference.restitution) {
-    difference.restitution = *contact.restitution - *reference.restitution;
-  }
-  return difference;
-}
-
-Json to_json(const std::vector<PairContact>& contacts,
-             const std::vector<PairContact>* reference) {
+Json to_json(const std::vector<runs::PairContact>& contacts,
+             const std::vector<runs::PairContact>* reference) {
   Json list = Json::array();
-  for (const PairContact& contact : contacts) {
+  for (const runs::PairContact& contact : contacts) {
     Json item{{"between", split_pair(contact.pair)},
               {"impacts", contact.impacts},
               {"touches", contact.touches},
@@ -122,7 +82,7 @@ Json to_json(const std::vector<PairContact>& contacts,
               {"duration", contact.duration},
               {"restitution", or_null(contact.restitution)}};
     if (reference != nullptr) {
-      const PairContact* same = find_pair(*reference, contact.pair);
+      const runs::PairContact* same = find_pair(*reference, contact.pair);
       item["error"] = same == nullptr
                           ? Json(nullptr)
                           : to_json(find_difference(contact, *same));
@@ -142,7 +102,7 @@ std::string to_text(const std::vector<NamedContacts>& runs,
     text += fmt::format("{:<{}}  {:>20}  {:>20}  {:>20}  {:>7}  {:>7}  {:>7}\n",
                         pair, width, "impulse [N s]", "peak [N]", "lasts [s]",
                         "e", "impacts", "touches");
-    const PairContact* truth = find_pair(reference.contacts, pair);
+    const runs::PairContact* truth = find_pair(reference.contacts, pair);
     for (const NamedContacts& run : runs) {
       text += to_line(run.run, width, find_pair(run.contacts, pair), truth);
     }

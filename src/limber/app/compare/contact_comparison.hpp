@@ -1,51 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "limber/app/console/json.hpp"
-#include "limber/dynamics/monitors/contact_record.hpp"
+#include "limber/runs/compare/pair_contact.hpp"
 
 namespace limber::app {
-
-/// Contact of a pair of bodies in a run, over all its impacts.
-struct PairContact {
-  std::string pair;         ///< name, "A/B"
-  int impacts = 0;          ///< count
-  int touches = 0;          ///< count, sum
-  double impulse = 0.0;     ///< of the normal force, sum [N s]
-  double peak_force = 0.0;  ///< the largest [N]
-  double duration = 0.0;    ///< sum [s]
-  /// Of the impact with the largest impulse; none while it lasts [-].
-  std::optional<double> restitution;
-};
-
-/// One for each pair that touched, in the order of their first touches.
-[[nodiscard]] std::vector<PairContact> sum_up(
-    const std::vector<dynamics::ContactRecord>& records);
-
-/// Relative differences from the reference; for restitution the absolute one.
-/// None where the reference's is zero or does not exist.
-struct ContactDifference {
-  std::optional<double> impulse;      ///< [-]
-  std::optional<double> peak_force;   ///< [-]
-  std::optional<double> duration;     ///< [-]
-  std::optional<double> restitution;  ///< [-]
-};
-[[nodiscard]] ContactDifference find_difference(const PairContact& contact,
-                                                const PairContact& reference);
 
 /// Contacts of one run for tables.
 struct NamedContacts {
   std::string run;
-  std::vector<PairContact> contacts;
+  std::vector<runs::PairContact> contacts;
 };
 
 /// A list; with a reference also each `error`.
-[[nodiscard]] Json to_json(const std::vector<PairContact>& contacts,
-                           const std::vector<PairContact>* reference);
+[[nodiscard]] Json to_json(const std::vector<runs::PairContact>& contacts,
+                           const std::vector<runs::PairContact>* reference);
 
 /// A table for each pair that touched in any run, the reference last; empty if
 /// none did. If a pair was not in contact in a run, its row states it.

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <string>
 
 #include "limber/common/progress.hpp"
 #include "limber/reduction/mode_study.hpp"
@@ -27,12 +25,6 @@ namespace limber::app {
 [[nodiscard]] runs::SceneAdvice advise(const scene::Scene& scene,
                                        const std::filesystem::path& cache,
                                        const Progress& progress);
-
-/// Receives the time [s] of a body, with its mesh, by its content key.
-using NoteSeconds = std::function<void(const std::string& key, double seconds)>;
-/// `reducer`, with its times reported to `note`.
-[[nodiscard]] scene::Reducer time_reductions(const scene::Reducer& reducer,
-                                             const NoteSeconds& note);
 
 /// flexbody::make_full_body, or nothing in a build without Gmsh and CHOLMOD.
 [[nodiscard]] scene::FullMaker make_full_maker(const Progress& progress);

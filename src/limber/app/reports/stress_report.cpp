@@ -7,8 +7,8 @@
 #include <cmath>
 #include <variant>
 
-#include "limber/app/console/percent.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/percent.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/scene/probes/followed_probes.hpp"

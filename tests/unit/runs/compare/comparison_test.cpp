@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/compare/comparison.hpp"
+#include "limber/runs/compare/comparison.hpp"
 
 #include <gmock/gmock.h>
 
-#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/runs/compare/comparison_selection.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::app::comparison_test {
+namespace limber::runs::comparison_test {
 namespace {
 
 using scene::test::input_error;
@@ -111,4 +111,4 @@ TEST(OutputTimes, KeepTheDistanceOfTheLongestStep) {
 }
 
 }  // namespace
-}  // namespace limber::app::comparison_test
+}  // namespace limber::runs::comparison_test

@@ -8,7 +8,7 @@
 #include "limber/scene/build/scene.hpp"
 
 /// The runs of `limber compare`: docs/reference/compare.md.
-namespace limber::app {
+namespace limber::runs {
 
 /// How to simulate a scene. Unset values are those of the scenario.
 struct Choice {
@@ -84,4 +84,4 @@ struct ComparisonPlan {
 /// For folders: "coupled-10-interfaces-0.001s".
 [[nodiscard]] std::string make_folder_name(const Choice& choice);
 
-}  // namespace limber::app
+}  // namespace limber::runs

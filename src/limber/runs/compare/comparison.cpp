@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/compare/comparison.hpp"
+#include "limber/runs/compare/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,14 @@
 #include <cmath>
 #include <set>
 
-#include "limber/app/console/terminal.hpp"
-#include "limber/app/options/reducer.hpp"
-#include "limber/app/options/scene_loading.hpp"
-#include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/energy_error.hpp"
+#include "limber/runs/timed_reducer.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 constexpr int kMostRepeats = 1000;
@@ -57,7 +54,7 @@ std::map<std::string, ProbeDifference> find_probe_differences(
 class Runner {
  public:
   Runner(const ComparisonPlan& plan, const ComparisonSettings& settings)
-      : plan_(plan), settings_(settings), bar_(make_progress_bar()) {
+      : plan_(plan), settings_(settings) {
     double longest = 0.0;
     for (const Choice& choice : plan.runs) {
       longest = std::max(longest, choice.step.value_or(0.0));
@@ -73,26 +70,24 @@ class Runner {
     Comparison comparison;
     comparison.scenario = settings_.scenario;
     comparison.reference_note = describe_default_reference(plan_);
-    const runs::Run reference = simulate(plan_.reference);
+    const Run reference = simulate(plan_.reference);
     keep(plan_.reference, reference);
     if (reference.failure) std::rethrow_exception(reference.failure);
     comparison.reference = assess(plan_.reference, reference, reference);
     for (const Choice& choice : plan_.runs) {
       comparison.runs.push_back(compare(choice, reference));
     }
-    clear_progress_bar();
     return comparison;
   }
 
  private:
-  ComparedRun compare(const Choice& choice, const runs::Run& reference) {
+  ComparedRun compare(const Choice& choice, const Run& reference) {
     try {
-      const runs::Run run = simulate(choice);
+      const Run run = simulate(choice);
       keep(choice, run);
       return assess(choice, run, reference);
     } catch (const NumericalError& error) {
       // Failed before the start: its reduction, or its initial state.
-      clear_progress_bar();
       ComparedRun none;
       none.choice = choice;
       none.stopped = fmt::format("stopped before the start: {}", error.what());
@@ -100,7 +95,7 @@ class Runner {
     }
   }
 
-  runs::Run simulate(const Choice& choice) {
+  Run simulate(const Choice& choice) {
     scene::Overrides overrides = to_overrides(choice, settings_.settings);
     overrides.rows = flexbody::KeptRows{flexbody::KeptRows::Extent::all, {}};
     scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
@@ -115,17 +110,15 @@ class Runner {
       report(settings_.watch, what, fraction);
       report_run(what, cost, fraction);
     };
-    runs::RunOptions options;
-    options.reductions = {make_timed_reducer(progress), settings_.cache,
-                          make_full_maker(progress)};
+    RunOptions options;
+    options.reductions = make_reductions(progress);
     options.progress = progress;
-    options.judges_levels = settings_.keep_runs;
-    runs::PicturedScene made = runs::build_pictured(scene, options.reductions);
-    runs::warn_of_unused_cache(settings_.cache, made.built);
+    options.judges_levels = settings_.judges_levels;
+    PicturedScene made = build_pictured(scene, options.reductions);
+    warn_of_unused_cache(options.reductions.cache, made.built);
     made.built.settings.tolerance *= choice.tolerance_fraction;
-    runs::Run run = runs::simulate_pictured(scene, std::move(made), options);
+    Run run = simulate_pictured(scene, std::move(made), options);
     done_ += cost;
-    clear_progress_bar();
     note(scene, run.built.notes);
     warn(run.built.warnings);
     return run;
@@ -144,56 +137,53 @@ class Runner {
   void report_run(std::string_view what, double cost, double fraction) const {
     const std::size_t count = plan_.runs.size() + 1;
     if (what == "simulating") {
-      report(bar_, fmt::format("all {} runs", count),
+      report(settings_.progress, fmt::format("all {} runs", count),
              (done_ + cost * fraction) / total_);
       return;
     }
-    report(bar_, fmt::format("run {} of {}, {}", started_, count, what),
-           fraction);
+    report(settings_.progress,
+           fmt::format("run {} of {}, {}", started_, count, what), fraction);
   }
 
   void report_repeat(int again, double fraction) const {
     if (settings_.repeats < 2) return;  // short: until they take kEnough
-    report(bar_,
+    report(settings_.progress,
            fmt::format("run {} of {}, timed again", started_,
                        plan_.runs.size() + 1),
            (again - 1 + fraction) / (settings_.repeats - 1));
   }
 
   /// Records how long each reduction takes.
-  scene::Reducer make_timed_reducer(const Progress& progress) {
-    return time_reductions(make_reducer(progress),
-                           [this](const std::string& key, double seconds) {
-                             reduction_seconds_[key] = seconds;
-                           });
+  Reductions make_reductions(const Progress& progress) {
+    if (!settings_.make_reductions) return {};
+    Reductions reductions = settings_.make_reductions(progress);
+    reductions.reducer = time_reductions(
+        reductions.reducer, [this](const std::string& key, double seconds) {
+          reduction_seconds_[key] = seconds;
+        });
+    return reductions;
   }
 
   void note(const scene::Scene& scene, const std::vector<std::string>& notes) {
     for (const std::string& text : notes) {
-      if (noted_.insert(text).second) print_more_notes(scene, {text});
+      if (noted_.insert(text).second && settings_.note) {
+        settings_.note(scene, text);
+      }
     }
   }
 
   void warn(const std::vector<std::string>& warnings) {
     for (const std::string& text : warnings) {
-      if (warned_.insert(text).second) print_warnings({text});
+      if (warned_.insert(text).second && settings_.warn) settings_.warn(text);
     }
   }
 
-  void keep(const Choice& choice, const runs::Run& run) const {
-    if (!settings_.keep_runs) return;
-    const std::string name = make_folder_name(choice);
-    const bool is_reference = choice == plan_.reference;
-    const std::filesystem::path folder =
-        settings_.folder / (is_reference ? "reference" : name);
-    OutputFolder(folder).write([&](const std::filesystem::path& place) {
-      write_run(run, place, run.scene.scenario.output.xdmf);
-      if (has_pictures(run)) draw_run(run, place);
-    });
+  void keep(const Choice& choice, const Run& run) const {
+    if (settings_.keep) settings_.keep(choice, run);
   }
 
-  ComparedRun assess(const Choice& choice, const runs::Run& run,
-                     const runs::Run& reference) const {
+  ComparedRun assess(const Choice& choice, const Run& run,
+                     const Run& reference) const {
     ComparedRun result;
     result.choice = choice;
     result.cost = find_cost(run);
@@ -214,7 +204,7 @@ class Runner {
     return result;
   }
 
-  Cost find_cost(const runs::Run& run) const {
+  Cost find_cost(const Run& run) const {
     Cost cost;
     cost.steps = run.statistics.steps;
     cost.newton_iterations = run.statistics.newton_iterations;
@@ -230,7 +220,7 @@ class Runner {
     while (!run.failure && !is_enough()) {
       const int again = cost.repeats;
       const double seconds =
-          runs::repeat_timing(run, [&](std::string_view what, double fraction) {
+          repeat_timing(run, [&](std::string_view what, double fraction) {
             report(settings_.watch, what, fraction);
             report_repeat(again, fraction);
           });
@@ -243,7 +233,7 @@ class Runner {
   }
 
   /// Counts each distinct body once.
-  std::optional<double> find_offline(const runs::Run& run) const {
+  std::optional<double> find_offline(const Run& run) const {
     std::set<std::string> keys;
     for (const dynamics::BodyModel& body : run.built.model.bodies) {
       if (body.reduced) keys.insert(body.reduced->content_key);
@@ -259,7 +249,6 @@ class Runner {
 
   const ComparisonPlan& plan_;
   const ComparisonSettings& settings_;
-  Progress bar_;
   std::vector<double> times_;
   std::size_t started_ = 0;
   double done_ = 0.0;   ///< costs of runs, the reference's is 1
@@ -271,8 +260,8 @@ class Runner {
 
 }  // namespace
 
-Comparison run_comparison(const ComparisonPlan& plan,
-                          const ComparisonSettings& settings) {
+Comparison compare_runs(const ComparisonPlan& plan,
+                        const ComparisonSettings& settings) {
   return Runner(plan, settings).run();
 }
 
@@ -291,4 +280,4 @@ std::vector<double> thin_times(const std::vector<double>& times,
   return thinned;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

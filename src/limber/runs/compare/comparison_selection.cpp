@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/runs/compare/comparison_selection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "limber/app/console/percent.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/common/parse_number.hpp"
+#include "limber/common/percent.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 const std::vector<std::string>& measure_names() {
@@ -113,4 +113,4 @@ void refuse(const Comparison& comparison, const Demand& demand) {
       to_percent(least)));
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -2,20 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "limber/app/compare/comparison_plan.hpp"
-#include "limber/app/compare/contact_comparison.hpp"
-#include "limber/app/console/json.hpp"
-#include "limber/app/run/run_scene.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/results/motion_error.hpp"
+#include "limber/runs/compare/comparison_plan.hpp"
+#include "limber/runs/compare/pair_contact.hpp"
+#include "limber/runs/run.hpp"
 
-/// The comparison of `limber compare`: docs/reference/compare.md.
-namespace limber::app {
+/// Runs of a scene at several levels, bases and steps beside a reference, as
+/// `limber compare` does: docs/reference/compare.md.
+namespace limber::runs {
 
 /// Difference of one probe column from the reference, over all output times.
 struct ProbeDifference {
@@ -58,22 +59,30 @@ struct Comparison {
 struct ComparisonSettings {
   std::filesystem::path scenario;
   std::vector<scene::Setting> settings;  ///< applied to it in every run
-  std::filesystem::path folder;          ///< of results
-  std::filesystem::path cache;           ///< empty for the default one
-  bool keep_runs = false;                ///< a folder for each run
-  int repeats = 0;  ///< count; 0: until they take kEnough together
-  /// Called during all work, in addition to the progress bar; may throw to end
-  /// the current run (dynamics::Interrupted).
-  Progress watch = {};
+  /// Reductions that report to the given progress; none needed for rigid
+  /// scenes.
+  std::function<Reductions(const Progress&)> make_reductions{};
+  bool judges_levels = false;  ///< whether to find Run::levels; costs time
+  int repeats = 0;             ///< count; 0: until they take kEnough together
+  /// Shown progress: of all simulations together, else of one run's work.
+  Progress progress{};
+  /// Called during all work; may throw to end the current run
+  /// (dynamics::Interrupted).
+  Progress watch{};
+  /// Called with the notes and warnings of runs, each text once.
+  std::function<void(const scene::Scene&, const std::string&)> note{};
+  std::function<void(const std::string&)> warn{};
+  /// Called with each run while it has its states.
+  std::function<void(const Choice&, const Run&)> keep{};
 };
 /// Runs shorter than this are repeated until they take this long together [s].
 inline constexpr double kEnough = 0.2;
 
-/// Simulates the reference and then every run of the plan.
+/// Simulates the reference and then every run of the plan (make_plan).
 /// @throws NumericalError if the reference fails; InputError for a choice that
 /// the scene rejects.
-[[nodiscard]] Comparison run_comparison(const ComparisonPlan& plan,
-                                        const ComparisonSettings& settings);
+[[nodiscard]] Comparison compare_runs(const ComparisonPlan& plan,
+                                      const ComparisonSettings& settings);
 
 /// Output times that all compared steps can reach: those of the scenario,
 /// without those nearer than `longest` [s] to the previous one. The last one is
@@ -81,4 +90,4 @@ inline constexpr double kEnough = 0.2;
 [[nodiscard]] std::vector<double> thin_times(const std::vector<double>& times,
                                              double longest);
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/compare/comparison_plan.hpp"
+#include "limber/runs/compare/comparison_plan.hpp"
 
 #include <gmock/gmock.h>
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::app::comparison_plan_test {
+namespace limber::runs::comparison_plan_test {
 namespace {
 
 using dynamics::Fidelity;
@@ -214,4 +214,4 @@ TEST(Choice, TakesThePlaceOfTheScenariosWords) {
 }
 
 }  // namespace
-}  // namespace limber::app::comparison_plan_test
+}  // namespace limber::runs::comparison_plan_test

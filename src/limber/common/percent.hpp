@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-namespace limber::app {
+namespace limber {
 
 /// "1.2 %"; "none" without a value. @param fraction [-]
 [[nodiscard]] std::string to_percent(std::optional<double> fraction);
 
-}  // namespace limber::app
+}  // namespace limber

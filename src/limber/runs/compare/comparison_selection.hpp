@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "limber/app/compare/comparison.hpp"
+#include "limber/runs/compare/comparison.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// The error that a tolerance applies to.
 enum class ErrorMeasure { displacement, deformation, both };
@@ -41,4 +41,4 @@ struct Demand {
 /// @throws NumericalError, always.
 [[noreturn]] void refuse(const Comparison& comparison, const Demand& demand);
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/console/percent.hpp"
+#include "limber/common/percent.hpp"
 
 #include <fmt/format.h>
 
-namespace limber::app {
+namespace limber {
 
 std::string to_percent(std::optional<double> fraction) {
   if (!fraction) return "none";
@@ -12,4 +12,4 @@ std::string to_percent(std::optional<double> fraction) {
                         : fmt::format("{:.3g} %", percent);
 }
 
-}  // namespace limber::app
+}  // namespace limber

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/compare/comparison_plan.hpp"
+#include "limber/runs/compare/comparison_plan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 using dynamics::Fidelity;
@@ -333,4 +333,4 @@ std::string make_folder_name(const Choice& choice) {
   return name;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs
