@@ -10,7 +10,7 @@
 #include "limber/app/reports/frequency_report.hpp"
 #include "limber/app/reports/level_report.hpp"
 #include "limber/app/run/scene_check.hpp"
-#include "limber/app/run/static_run.hpp"
+#include "limber/app/run/static_files.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "recorded_run.hpp"
@@ -30,8 +30,8 @@ py::tuple find_static(const scene::Scene& scene,
       method ? dynamics::parse_equilibrium_method(*method)
              : scene.scenario.equilibrium.value_or(EquilibriumMethod::newton);
   const auto found = run_alone([&](const Progress& watch) {
-    return std::make_shared<const app::StaticRun>(
-        app::find_static(scene, chosen, cache, watch));
+    return std::make_shared<const runs::StaticRun>(runs::find_static(
+        scene, chosen, app::make_reductions(cache, watch), watch));
   });
   auto recorded = std::make_shared<RecordedRun>();
   recorded->run.scene = found->scene;
@@ -40,7 +40,7 @@ py::tuple find_static(const scene::Scene& scene,
   recorded->write = [found](const fs::path& folder, bool xdmf) {
     app::write_static(*found, folder, xdmf);
   };
-  return py::make_tuple(recorded, to_python(summarize(*found)),
+  return py::make_tuple(recorded, to_python(app::summarize(*found)),
                         found->warnings);
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the command linearize finds, of a loaded scene.
 #include "arrays.hpp"
-#include "limber/app/run/linear_run.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/linear_model_file.hpp"
+#include "limber/runs/analyses/linear_run.hpp"
 #include "run_alone.hpp"
 
 namespace limber::python {
 namespace {
 
 namespace fs = std::filesystem;
-using app::LinearRun;
+using runs::LinearRun;
 using Signals = std::vector<dynamics::LinearSignal>;
 using Names = std::optional<std::vector<std::string>>;
 
@@ -24,15 +25,15 @@ std::vector<std::string> read_names(const char* what, const Names& names) {
   return *names;
 }
 
-std::variant<app::Reference, double> read_time_or_reference(
+std::variant<runs::Reference, double> read_time_or_reference(
     const py::object& at) {
   if (py::isinstance<py::str>(at)) {
-    return app::parse_reference(at.cast<std::string>());
+    return runs::parse_reference(at.cast<std::string>());
   }
   try {
     return at.cast<double>();
   } catch (const py::cast_error&) {
-    return app::parse_reference(py::str(at));  // which refuses it
+    return runs::parse_reference(py::str(at));  // which refuses it
   }
 }
 
@@ -47,14 +48,14 @@ std::shared_ptr<LinearRun> linearize(const scene::Scene& scene,
                                      const Names& outputs,
                                      const std::optional<int>& states,
                                      bool closed_loop, const fs::path& cache) {
-  const app::LinearRequest request = {
+  const runs::LinearRequest request = {
       read_time_or_reference(at),
       {read_names("inputs", inputs), read_names("outputs", outputs)},
       read_states(states),
       closed_loop};
   return run_alone([&](const Progress& watch) {
-    return std::make_shared<LinearRun>(
-        app::linearise_scene(scene, request, cache, watch));
+    return std::make_shared<LinearRun>(runs::linearise_scene(
+        scene, request, app::make_reductions(cache, watch), watch));
   });
 }
 

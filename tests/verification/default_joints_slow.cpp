@@ -9,8 +9,8 @@
 
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/run_scene.hpp"
-#include "limber/app/run/static_run.hpp"
 #include "limber/common/index.hpp"
+#include "limber/runs/analyses/static_run.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "places.hpp"
 #include "support/temporary_folder.hpp"
@@ -40,9 +40,9 @@ runs::Run simulate(const scene::Scene& scene) {
 
 /// Final value of a column of a scene's equilibrium.
 double find_static(const std::string& file, std::size_t column) {
-  const app::StaticRun run =
-      app::find_static(scene::load_scene(kScenes / file),
-                       dynamics::EquilibriumMethod::newton, cache(), {});
+  const runs::StaticRun run = runs::find_static(
+      scene::load_scene(kScenes / file), dynamics::EquilibriumMethod::newton,
+      app::make_reductions(cache(), {}), {});
   EXPECT_THAT(
       run.warnings,
       ::testing::Not(::testing::Contains(::testing::HasSubstr("joint '"))));
@@ -78,8 +78,9 @@ TEST(DefaultJoints, AreSlowForAnImpactOnlyIfGivenSoAndThenWarn) {
 TEST(DefaultJoints, ThatStoreMoreThanAPercentOfTheEnergyWarn) {
   scene::Scene scene = scene::load_scene(kScenes / "pull.toml");
   scene.robot.joints.at(0).coupler.translational_stiffness = 1e8;
-  const app::StaticRun run =
-      app::find_static(scene, dynamics::EquilibriumMethod::newton, cache(), {});
+  const runs::StaticRun run =
+      runs::find_static(scene, dynamics::EquilibriumMethod::newton,
+                        app::make_reductions(cache(), {}), {});
   EXPECT_THAT(run.warnings,
               ::testing::Contains(::testing::HasSubstr(
                   "joint 'root' is soft relative to the bodies")));

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/run/static_run.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/runs/analyses/static_run.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/text/setting.hpp"
@@ -65,9 +65,10 @@ TEST(SteadyStates, OfAFreeBarPulledInItsOwnAxesIsHookesLaw) {
       overrides.settings.push_back(
           scene::parse_setting(std::string("load.") + end + ".frame=" + frame));
     }
-    const app::StaticRun run = app::find_static(
+    const runs::StaticRun run = runs::find_static(
         scene::load_scene(kScenes / "bar_body.toml", overrides),
-        dynamics::EquilibriumMethod::newton, cache(), {});
+        dynamics::EquilibriumMethod::newton, app::make_reductions(cache(), {}),
+        {});
     EXPECT_NEAR(run.history.probe_rows[0].at(0), 3.57143e-6, 1e-10);
   }
 }

@@ -11,12 +11,13 @@
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/list_option.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
-#include "limber/app/run/linear_run.hpp"
 #include "limber/results/linear_model_file.hpp"
+#include "limber/runs/analyses/linear_run.hpp"
 
 namespace limber::app {
 namespace {
@@ -34,14 +35,16 @@ struct LinearizeOptions {
   bool json = false;
 };
 
-LinearRun find_linear_run(const LinearizeOptions& options) {
+runs::LinearRun find_linear_run(const LinearizeOptions& options) {
   results::check_linear_model_ending(options.file);
-  const LinearRequest request = {parse_reference(options.at), options.selection,
-                                 options.states, options.closes_loops};
+  const runs::LinearRequest request = {runs::parse_reference(options.at),
+                                       options.selection, options.states,
+                                       options.closes_loops};
   const scene::Scene scene = load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   const Progress progress = make_progress_bar();
-  LinearRun run = linearise_scene(scene, request, options.cache, progress);
+  runs::LinearRun run = linearise_scene(
+      scene, request, make_reductions(options.cache, progress), progress);
   clear_progress_bar();
   print_more_notes(scene, run.notes);
   return run;
@@ -58,7 +61,7 @@ Json list_signals(const std::vector<dynamics::LinearSignal>& signals) {
 }
 
 void print_linear_json(const LinearizeOptions& options,
-                       const LinearRun& found) {
+                       const runs::LinearRun& found) {
   const results::LinearRecord& record = found.record;
   Json json = Json::object();
   json["scenario"] = options.scenario;
@@ -121,7 +124,7 @@ void print_truncation(const dynamics::TruncatedModel& truncated,
 }
 
 void print_linear_model(const LinearizeOptions& options,
-                        const LinearRun& found) {
+                        const runs::LinearRun& found) {
   const results::LinearRecord& record = found.record;
   fmt::print(
       "Linear model of {} about the {}, t = {:g} s: {} states, {} of "
@@ -158,7 +161,7 @@ void print_linear_model(const LinearizeOptions& options,
 }
 
 void linearize(const LinearizeOptions& options) {
-  const LinearRun found = find_linear_run(options);
+  const runs::LinearRun found = find_linear_run(options);
   results::write_linear_model(options.file, found.record);
   print_warnings(found.record.warnings);
   if (options.json) {

@@ -7,13 +7,16 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
+#include "limber/app/reports/static_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/output_folder.hpp"
-#include "limber/app/run/static_run.hpp"
+#include "limber/app/run/static_files.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/runs/numbered_stages.hpp"
 
 namespace limber::app {
 namespace {
@@ -42,7 +45,7 @@ dynamics::EquilibriumMethod find_method(const StaticOptions& options,
   return scenario.equilibrium.value_or(dynamics::EquilibriumMethod::newton);
 }
 
-void print_static_run(const StaticRun& run,
+void print_static_run(const runs::StaticRun& run,
                       const std::filesystem::path& folder) {
   fmt::print("equilibrium in {} load steps, {} Newton iterations",
              run.found.load_steps, run.found.newton_iterations);
@@ -62,8 +65,11 @@ void report_equilibrium(const StaticOptions& options) {
   const scene::Scene scene = load_static_scene(options);
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name + "-static"));
-  const StaticRun run = find_static(scene, find_method(options, scene.scenario),
-                                    options.cache, make_progress_bar());
+  const Progress progress = make_progress_bar();
+  const runs::StaticRun run = runs::find_static(
+      scene, find_method(options, scene.scenario),
+      make_reductions(options.cache, runs::number_stage(progress, 1, 2)),
+      progress);
   clear_progress_bar();
   folder.write([&](const std::filesystem::path& place) {
     write_static(run, place, options.xdmf || run.scene.scenario.output.xdmf);

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "limber/app/options/reducer.hpp"
-#include "limber/app/reports/steady_report.hpp"
+#include "limber/runs/analyses/linearised_at.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 
@@ -21,10 +21,10 @@ Vector3 find_spin(const FrequencyReport& f) { return f.modes.axes.w_W; }
 void warn(FrequencyReport& f) {
   const dynamics::NaturalModes& m = f.modes;
   if (m.imbalance.matters) {
-    f.warnings.push_back(describe_imbalance(m.imbalance, m.is_moving));
+    f.warnings.push_back(runs::describe_imbalance(m.imbalance, m.is_moving));
   }
-  if (m.change > kReportedChange)
-    f.warnings.push_back(describe_change(m.change));
+  if (m.change > runs::kReportedChange)
+    f.warnings.push_back(runs::describe_change(m.change));
 }
 
 std::string name_whirl(const dynamics::NaturalMode& mode) {

@@ -3,97 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "limber/dynamics/analysis/natural_frequencies.hpp"
-#include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/equations/node_motion.hpp"
-
 namespace limber::app {
-namespace {
 
-using dynamics::BodyIndex;
-using dynamics::SystemModel;
-using dynamics::SystemState;
-
-/// Limit of the stability analysis, whose matrix is dense.
-constexpr int kMostUnknowns = 600;
-
-double find_deformation(const SystemModel& model, BodyIndex b,
-                        const SystemState& state) {
-  const auto& rows = model.bodies[static_cast<std::size_t>(b)].reduced->rows;
-  MatrixX u(rows.x_B.size(), 1);
-  calc_node_deformations(model, b, {&state, 1}, u);
-  return std::sqrt(
-      u.reshaped(3, rows.x_B.cols()).colwise().squaredNorm().maxCoeff());
-}
-
-StaticBody describe_static_body(const SystemModel& model, BodyIndex b,
-                                const SystemState& start,
-                                const SystemState& state,
-                                const dynamics::SystemTerms& terms) {
-  const auto i = static_cast<std::size_t>(b);
-  const dynamics::BodyModel& body = model.bodies[i];
-  StaticBody out;
-  out.name = body.name;
-  out.moved = (state.bodies[i].p_WB - start.bodies[i].p_WB).norm();
-  out.turned = state.bodies[i].quat_WB.angularDistance(start.bodies[i].quat_WB);
-  if (!body.reduced) return out;
-  out.static_stiffness = body.maxwell.scale;
-  out.size = body.reduced->size.maxCoeff();
-  if (body.reduced->rows.x_B.cols() > 0) {
-    out.deformation = find_deformation(model, b, state);
-  }
-  const auto eta = state.eta.segment(body.offset, body.modes);
-  out.strain_energy =
-      body.full >= 0
-          ? terms.full[static_cast<std::size_t>(body.full)].strain_energy
-          : flexbody::calc_elastic_energy(body.elasticity, eta);
-  return out;
-}
-
-std::optional<double> find_lowest(const SystemModel& model,
-                                  const SystemState& state) {
-  const auto unknowns =
-      6 * static_cast<int>(model.bodies.size()) + model.modal_count;
-  if (!model.full_bodies.empty() || unknowns > kMostUnknowns) return {};
-  const VectorX all = find_natural_frequencies(model, state);
-  if (all.size() == 0) return {};
-  return all[0];
-}
-
-}  // namespace
-
-StaticReport report_equilibrium(const scene::BuiltScene& built,
-                                const dynamics::Equilibrium& found) {
-  const SystemModel& model = built.model;
-  dynamics::SystemTerms terms = make_terms(model);
-  calc_terms(model, found.state, Side::right, terms);
-  StaticReport report;
-  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
-    report.bodies.push_back(
-        describe_static_body(model, b, built.initial, found.state, terms));
-  }
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    const Vector6& wrench = terms.couplers[c].response.wrench;
-    report.couplers.push_back({model.couplers[c].name, wrench.head<3>().norm(),
-                               wrench.tail<3>().norm()});
-  }
-  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
-    report.couplers.push_back({model.transmissions[i].name,
-                               std::abs(terms.transmissions[i].response.force),
-                               0.0});
-  }
-  report.coupler_energy = calc_energy(model, found.state).coupler;
-  report.lowest_frequency = find_lowest(model, found.state);
-  return report;
-}
-
-Json to_json(const StaticReport& report) {
+Json to_json(const runs::StaticReport& report) {
   Json json = Json::object();
   json["bodies"] = Json::array();
-  for (const StaticBody& body : report.bodies) {
+  for (const runs::StaticBody& body : report.bodies) {
     Json item{
         {"name", body.name}, {"moved", body.moved}, {"turned", body.turned}};
     if (body.size > 0.0) {
@@ -105,7 +20,7 @@ Json to_json(const StaticReport& report) {
     json["bodies"].push_back(item);
   }
   json["couplers"] = Json::array();
-  for (const StaticCoupler& coupler : report.couplers) {
+  for (const runs::StaticCoupler& coupler : report.couplers) {
     json["couplers"].push_back(Json{{"name", coupler.name},
                                     {"force", coupler.force},
                                     {"moment", coupler.moment}});
@@ -117,11 +32,11 @@ Json to_json(const StaticReport& report) {
   return json;
 }
 
-std::string to_text(const StaticReport& report) {
+std::string to_text(const runs::StaticReport& report) {
   std::string text = fmt::format("{:<20} {:>11} {:>11} {:>13} {:>9} {:>13}\n",
                                  "body", "moved [m]", "turned [rad]",
                                  "deforms [m]", "of size", "energy [J]");
-  for (const StaticBody& b : report.bodies) {
+  for (const runs::StaticBody& b : report.bodies) {
     text +=
         fmt::format("{:<20} {:>11.4g} {:>11.4g}", b.name, b.moved, b.turned);
     if (b.size > 0.0) {
@@ -130,7 +45,7 @@ std::string to_text(const StaticReport& report) {
     }
     text += "\n";
   }
-  for (const StaticBody& b : report.bodies) {
+  for (const runs::StaticBody& b : report.bodies) {
     if (b.static_stiffness == 1.0) continue;
     text += fmt::format(
         "{}: static stiffness {:.4g} of the material's, which it has at the "
@@ -141,7 +56,7 @@ std::string to_text(const StaticReport& report) {
     text += fmt::format("{:<20} {:>11} {:>11}\n", "coupler", "force [N]",
                         "moment [N m]");
   }
-  for (const StaticCoupler& c : report.couplers) {
+  for (const runs::StaticCoupler& c : report.couplers) {
     text +=
         fmt::format("{:<20} {:>11.4g} {:>11.4g}\n", c.name, c.force, c.moment);
   }

@@ -62,7 +62,7 @@ Json summarize_energy(const results::History& history,
 Json summarize_probes(const runs::Run& run) {
   const results::History& history = run.history;
   const std::vector<dynamics::Extreme>& peaks = run.record.peaks;
-  const auto nodes = find_peak_nodes(run.built, run.record);
+  const auto nodes = runs::find_peak_nodes(run.built, run.record);
   Json json = Json::object();
   if (history.probe_rows.empty()) return json;
   for (std::size_t i = 0; i < history.columns.size(); ++i) {
@@ -239,7 +239,7 @@ Json summarize(const runs::Run& run) {
   json["probes"] = summarize_probes(run);
   if (run.scene.scenario.output.stress) {
     json["stress"] =
-        to_json(find_stress_peaks(run.built, run.history, run.record));
+        to_json(runs::find_stress_peaks(run.built, run.history, run.record));
   }
   if (run.errors) json["errors"] = to_json(*run.errors);
   json["levels"] = Json::array();

@@ -95,8 +95,8 @@ void print_text(const runs::Run& run, const std::filesystem::path& folder) {
   fmt::print("{}", to_text(run.record.contacts));
   print_probes(run.history, run.record.peaks);
   if (run.errors) fmt::print("{}", to_text(*run.errors));
-  fmt::print("{}",
-             to_text(find_stress_peaks(run.built, run.history, run.record)));
+  fmt::print("{}", to_text(runs::find_stress_peaks(run.built, run.history,
+                                                   run.record)));
   fmt::print("results in {}\n", folder.string());
 }
 

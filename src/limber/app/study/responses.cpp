@@ -8,13 +8,13 @@
 #include <cmath>
 #include <map>
 
-#include "limber/app/reports/stress_report.hpp"
 #include "limber/app/study/curve_measures.hpp"
 #include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/runs/probe_columns.hpp"
+#include "limber/runs/stress_peaks.hpp"
 
 namespace limber::app {
 namespace {
@@ -359,7 +359,7 @@ runs::Run make_start(const scene::Scene& scene,
       scene::evaluate_all(built.probes, built.model, built.initial)};
   run.history.states = {built.initial};
   run.history.energies = {calc_energy(built.model, built.initial)};
-  run.record = record_state(built, built.initial);
+  run.record = runs::record_state(built, built.initial);
   return run;
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <variant>
 
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/analysis/balanced_truncation.hpp"
 #include "limber/results/linear_model_file.hpp"
+#include "limber/runs/reductions.hpp"
 #include "limber/scene/build/scene.hpp"
 #include "limber/scene/control/linear_scene.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 
 /// States of a scene about which it is linearised.
 enum class Reference { start, equilibrium };
@@ -39,13 +39,12 @@ struct LinearRun {
   std::vector<std::string> notes;  ///< as scene::BuiltScene
 };
 
-/// @param cache empty for the default one
 /// @throws InputError for a time outside of the run; as scene::build_system,
 /// dynamics::find_equilibrium, dynamics::simulate, scene::linearise and
 /// dynamics::truncate_balanced.
 [[nodiscard]] LinearRun linearise_scene(const scene::Scene& scene,
                                         const LinearRequest& request,
-                                        const std::filesystem::path& cache,
+                                        const Reductions& reductions,
                                         const Progress& progress);
 
-}  // namespace limber::app
+}  // namespace limber::runs

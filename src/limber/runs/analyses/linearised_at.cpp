@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/reports/steady_report.hpp"
+#include "limber/runs/analyses/linearised_at.hpp"
 
 #include <fmt/format.h>
 
-namespace limber::app {
+namespace limber::runs {
 
 std::string describe_imbalance(const dynamics::Imbalance& imbalance,
                                bool is_moving, const LinearisedAt& at) {
@@ -38,4 +38,4 @@ std::string describe_change(double change, const LinearisedAt& at) {
       change, at.result);
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs

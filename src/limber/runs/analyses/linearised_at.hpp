@@ -6,7 +6,7 @@
 #include "limber/dynamics/analysis/steady_motion.hpp"
 
 /// Texts about the limits of a linearisation.
-namespace limber::app {
+namespace limber::runs {
 
 /// Texts for the reference state of a linearisation and for its result.
 struct LinearisedAt {
@@ -28,4 +28,4 @@ struct LinearisedAt {
 /// Changes beyond this are reported [-].
 inline constexpr double kReportedChange = 1e-6;
 
-}  // namespace limber::app
+}  // namespace limber::runs

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/run/linear_run.hpp"
+#include "limber/runs/analyses/linear_run.hpp"
 
 #include <fmt/format.h>
 
 #include <string>
 #include <vector>
 
-#include "limber/app/options/reducer.hpp"
-#include "limber/app/reports/steady_report.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/parse_number.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/runs/analyses/linearised_at.hpp"
 #include "limber/runs/unused_cache.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/control/closed_loop.hpp"
 
-namespace limber::app {
+namespace limber::runs {
 namespace {
 
 /// The state that the model's deviations refer to.
@@ -134,11 +133,11 @@ std::variant<Reference, double> parse_reference(const std::string& text) {
 
 LinearRun linearise_scene(const scene::Scene& scene,
                           const LinearRequest& request,
-                          const std::filesystem::path& cache,
+                          const Reductions& reductions,
                           const Progress& progress) {
   scene::BuiltScene built = scene::build_system(
-      scene, make_reducer(progress), cache, make_full_maker(progress));
-  runs::warn_of_unused_cache(cache, built);
+      scene, reductions.reducer, reductions.cache, reductions.make_full);
+  warn_of_unused_cache(reductions.cache, built);
   const ReferenceState reference =
       find_reference(request.at, scene, built, progress);
   LinearRun run;
@@ -161,4 +160,4 @@ LinearRun linearise_scene(const scene::Scene& scene,
   return run;
 }
 
-}  // namespace limber::app
+}  // namespace limber::runs
