@@ -58,6 +58,10 @@ set(public_headers
   results/probes_csv.hpp
   results/results_file.hpp
   runs/batch.hpp
+  runs/analyses/linear_run.hpp
+  runs/analyses/static_run.hpp
+  runs/compare/comparison.hpp
+  runs/compare/comparison_selection.hpp
   runs/run.hpp
   scene/build/build_system.hpp
   scene/build/load_scene.hpp)
