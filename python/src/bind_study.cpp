@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "interruption.hpp"
-#include "limber/app/study/study_file.hpp"
-#include "limber/app/study/study_reader.hpp"
 #include "limber/app/study/study_runner.hpp"
 #include "limber/app/study/study_table.hpp"
 #include "limber/app/study/study_worker.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/runs/library_lock.hpp"
+#include "limber/study/study_file.hpp"
+#include "limber/study/study_reader.hpp"
 #include "recorded_run.hpp"
 
 namespace limber::python {
@@ -23,12 +23,12 @@ namespace fs = std::filesystem;
 class StudyPlan {
  public:
   StudyPlan(const std::string& text, const fs::path& file, fs::path cache)
-      : study_(app::read_study(text, file)),
+      : study_(study::read_study(text, file)),
         design_(app::make_design(study_)),
         cache_(std::move(cache)) {}
 
-  [[nodiscard]] const app::Study& study() const { return study_; }
-  [[nodiscard]] const app::Design& design() const { return design_; }
+  [[nodiscard]] const study::Study& study() const { return study_; }
+  [[nodiscard]] const study::Design& design() const { return design_; }
 
   /// What the study and its scenario are; checks all against the first run.
   const std::string& manifest() {
@@ -38,14 +38,14 @@ class StudyPlan {
   }
 
   /// None if it was stopped.
-  std::optional<app::StudyRow> make_row(std::size_t run) {
+  std::optional<study::StudyRow> make_row(std::size_t run) {
     clear_cause();
     const py::gil_scoped_release release;
     prepare();
     if (run >= design_.size()) {
       throw ContractError("a run that the study does not have");
     }
-    std::optional<app::StudyRow> row = worker_->make_row(run, design_[run]);
+    std::optional<study::StudyRow> row = worker_->make_row(run, design_[run]);
     if (!row) return std::nullopt;
     if (row->error.empty()) {
       const std::lock_guard lock(formula_mutex_);
@@ -75,8 +75,8 @@ class StudyPlan {
         });
   }
 
-  app::Study study_;
-  app::Design design_;
+  study::Study study_;
+  study::Design design_;
   fs::path cache_;
   std::atomic<bool> stops_ = false;
   std::mutex base_mutex_;  // of the next two
@@ -85,16 +85,16 @@ class StudyPlan {
   std::mutex formula_mutex_;
 };
 
-py::tuple pack(const app::StudyRow& row) {
+py::tuple pack(const study::StudyRow& row) {
   return py::make_tuple(row.run, row.factors, row.responses, row.error,
                         row.warnings, row.seconds, row.seconds_ready);
 }
 
-app::StudyRow unpack(const py::tuple& row) {
-  app::StudyRow made;
+study::StudyRow unpack(const py::tuple& row) {
+  study::StudyRow made;
   made.run = row[0].cast<std::size_t>();
   made.factors = row[1].cast<std::vector<std::string>>();
-  made.responses = row[2].cast<app::ResponseValues>();
+  made.responses = row[2].cast<study::ResponseValues>();
   made.error = row[3].cast<std::string>();
   made.warnings = row[4].cast<std::string>();
   made.seconds = row[5].cast<double>();
@@ -102,38 +102,39 @@ app::StudyRow unpack(const py::tuple& row) {
   return made;
 }
 
-std::vector<std::string> list_factors(const app::Study& study) {
+std::vector<std::string> list_factors(const study::Study& study) {
   std::vector<std::string> names;
-  for (const app::Factor& factor : study.factors) names.push_back(factor.name);
+  for (const study::Factor& factor : study.factors)
+    names.push_back(factor.name);
   return names;
 }
 
-std::vector<std::string> list_responses(const app::Study& study) {
+std::vector<std::string> list_responses(const study::Study& study) {
   std::vector<std::string> names;
-  for (const app::Response& one : study.responses) names.push_back(one.name);
+  for (const study::Response& one : study.responses) names.push_back(one.name);
   return names;
 }
 
 /// A file of results, which is locked until it is closed.
 struct OpenResults {
-  std::unique_ptr<app::StudyFile> file;
+  std::unique_ptr<study::StudyFile> file;
 
-  app::StudyFile& get() {
+  study::StudyFile& get() {
     if (!file) throw ContractError("this file of results is closed");
     return *file;
   }
 };
 
-py::list read_rows(const app::StudyFile& file) {
+py::list read_rows(const study::StudyFile& file) {
   py::list rows;
-  for (const app::StudyRow& row : file.read_rows()) rows.append(pack(row));
+  for (const study::StudyRow& row : file.read_rows()) rows.append(pack(row));
   return rows;
 }
 
 /// {factor: {response: (main, total)}}
-py::dict find_effects(const app::StudyFile& file) {
-  const app::Study& study = file.record().study;
-  const app::Effects effects =
+py::dict find_effects(const study::StudyFile& file) {
+  const study::Study& study = file.record().study;
+  const study::Effects effects =
       app::find_effects(study, file.record().runs, file.read_rows());
   py::dict dict;
   for (std::size_t f = 0; f < effects.size(); ++f) {
@@ -150,13 +151,13 @@ py::dict find_effects(const app::StudyFile& file) {
 }
 
 OpenResults open_results(const fs::path& file, StudyPlan& plan) {
-  return {std::make_unique<app::StudyFile>(
-      file, app::StudyRecord{plan.study(), plan.manifest(),
-                             plan.design().size(), 0, 1})};
+  return {std::make_unique<study::StudyFile>(
+      file, study::StudyRecord{plan.study(), plan.manifest(),
+                               plan.design().size(), 0, 1})};
 }
 
 OpenResults read_results(const fs::path& file) {
-  return {std::make_unique<app::StudyFile>(file)};
+  return {std::make_unique<study::StudyFile>(file)};
 }
 
 }  // namespace
@@ -204,7 +205,7 @@ void bind_study(py::module_& m) {
       .def_property_readonly(
           "effects", [](OpenResults& open) { return find_effects(open.get()); })
       .def("add", [](OpenResults& open, const std::vector<py::tuple>& rows) {
-        std::vector<app::StudyRow> made;
+        std::vector<study::StudyRow> made;
         for (const py::tuple& row : rows) made.push_back(unpack(row));
         open.get().add(made);
       });

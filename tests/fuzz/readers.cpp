@@ -15,7 +15,6 @@
 #include "limber/fem/structural/read_structure.hpp"
 #endif
 #include "fuzz/body_edits.hpp"
-#include "limber/app/study/study_reader.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
@@ -23,6 +22,7 @@
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/force_file.hpp"
 #include "limber/scene/text/series_file.hpp"
+#include "limber/study/study_reader.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber::fuzz {
@@ -88,8 +88,8 @@ void read_stl(std::string_view bytes) { read_shape(bytes, "input.stl"); }
 
 void read_obj(std::string_view bytes) { read_shape(bytes, "input.obj"); }
 
-void read_study(std::string_view bytes) {
-  (void)app::read_study(write_input(bytes));
+void study::read_study(std::string_view bytes) {
+  (void)study::read_study(write_input(bytes));
 }
 
 void read_body(std::string_view bytes) {
@@ -169,7 +169,7 @@ const std::vector<Reader>& all_readers() {
       {"material", read_material},
       {"stl", read_stl},
       {"obj", read_obj},
-      {"study", read_study},
+      {"study", study::read_study},
       {"body", read_body},
       {"body_content", read_edited_body},
 #ifdef LIMBER_HAS_REDUCTION

@@ -13,10 +13,10 @@
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/app/study/study_pictures.hpp"
-#include "limber/app/study/study_reader.hpp"
 #include "limber/app/study/study_runner.hpp"
 #include "limber/app/study/study_table.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/study/study_reader.hpp"
 
 namespace limber::app {
 namespace {
@@ -73,9 +73,9 @@ int find_jobs(const StudyCommandOptions& options) {
 /// Tables of a file of results.
 void finish(const StudyCommandOptions& options, const fs::path& file,
             const fs::path& folder, const StudyCost& cost) {
-  const StudyFile results(file);
-  const StudyRecord& record = results.record();
-  const std::vector<StudyRow> rows = results.read_rows();
+  const study::StudyFile results(file);
+  const study::StudyRecord& record = results.record();
+  const std::vector<study::StudyRow> rows = results.read_rows();
   const StudyFindings findings = find_findings(record.study, record.runs, rows);
   if (options.csv) {
     write_text(fs::path(file).replace_extension(".csv"),
@@ -102,12 +102,12 @@ void finish(const StudyCommandOptions& options, const fs::path& file,
 }
 
 void run_one(const StudyCommandOptions& options) {
-  Study study = read_study(fs::path(options.study));
+  study::Study study = study::read_study(fs::path(options.study));
   for (const scene::Setting& one : to_settings(options.robots)) {
     study.settings.push_back(one);
   }
   const Shard shard = parse_shard(options.shard);
-  const Design design = make_design(study);
+  const study::Design design = make_design(study);
   const StudyBase base = make_base(study, design, options.cache);
   const fs::path folder = make_folder(options, study.name);
   const fs::path path =
@@ -116,7 +116,7 @@ void run_one(const StudyCommandOptions& options) {
                                                shard.index + 1, shard.count));
   StudyCost cost;
   {
-    StudyFile file(
+    study::StudyFile file(
         path, {study, base.manifest, design.size(), shard.index, shard.count});
     cost = run_study(design, base, {options.cache, find_jobs(options)}, file);
   }

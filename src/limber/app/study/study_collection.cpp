@@ -45,10 +45,10 @@ std::size_t collect_study(const std::vector<std::string>& files,
         fmt::format("'{}' already exists; choose another folder with --out",
                     made.string()));
   }
-  std::map<std::size_t, std::pair<StudyRow, std::string>> rows;
-  StudyRecord record;
+  std::map<std::size_t, std::pair<study::StudyRow, std::string>> rows;
+  study::StudyRecord record;
   for (const std::string& name : files) {
-    const StudyFile file{fs::path(name)};
+    const study::StudyFile file{fs::path(name)};
     if (record.manifest.empty()) {
       record = file.record();
     } else {
@@ -60,7 +60,7 @@ std::size_t collect_study(const std::vector<std::string>& files,
                         files.front(), fmt::join(differences, "; ")));
       }
     }
-    for (StudyRow& row : file.read_rows()) {
+    for (study::StudyRow& row : file.read_rows()) {
       const std::size_t run = row.run;
       const auto [at, is_new] = rows.try_emplace(run, std::move(row), name);
       if (is_new) continue;
@@ -72,8 +72,8 @@ std::size_t collect_study(const std::vector<std::string>& files,
   }
   record.shard = 0;
   record.shards = 1;
-  StudyFile whole(made, record);
-  std::vector<StudyRow> all;
+  study::StudyFile whole(made, record);
+  std::vector<study::StudyRow> all;
   for (auto& [run, row] : rows) all.push_back(std::move(row.first));
   whole.add(all);
   return all.size();
@@ -81,9 +81,9 @@ std::size_t collect_study(const std::vector<std::string>& files,
 
 StudiedRun find_studied_run(const std::string& place) {
   const Place found = split_place(place);
-  const StudyFile file(found.file);
-  const Study& study = file.record().study;
-  const Design design = make_design(study);
+  const study::StudyFile file(found.file);
+  const study::Study& study = file.record().study;
+  const study::Design design = make_design(study);
   if (found.run >= design.size()) {
     throw InputError(fmt::format(
         "'{}' has {} runs, 0 to {}; there is no run "
@@ -96,8 +96,8 @@ StudiedRun find_studied_run(const std::string& place) {
 
 void check_is_unchanged(const std::string& place, const fs::path& cache) {
   const Place found = split_place(place);
-  const StudyFile file(found.file);
-  const Study& study = file.record().study;
+  const study::StudyFile file(found.file);
+  const study::Study& study = file.record().study;
   const StudyBase base = make_base(study, make_design(study), cache);
   std::vector<std::string> differences = find_differences(
       Manifest(file.record().manifest), Manifest(base.manifest));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/study_file.hpp"
 
 namespace limber::app {
 

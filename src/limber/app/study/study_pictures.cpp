@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "limber/app/console/terminal.hpp"
-#include "limber/app/study/distribution.hpp"
 #include "limber/results/charts/study_picture.hpp"
 #include "limber/results/draw_all.hpp"
+#include "limber/study/distribution.hpp"
 
 namespace limber::app {
 namespace {
@@ -20,19 +20,20 @@ namespace {
 using results::StudyColumn;
 
 /// A factor with a text among its values is drawn by the numbers of its texts.
-StudyColumn make_factor(const Study& study, const std::vector<StudyRow>& rows,
+StudyColumn make_factor(const study::Study& study,
+                        const std::vector<study::StudyRow>& rows,
                         std::size_t f) {
   StudyColumn column;
   column.name = study.factors[f].name;
-  const auto* spread = std::get_if<Spread>(&study.factors[f].values);
+  const auto* spread = std::get_if<study::Spread>(&study.factors[f].values);
   column.is_logarithmic = spread != nullptr && spread->is_logarithmic;
   const bool is_text =
-      std::any_of(rows.begin(), rows.end(), [&](const StudyRow& row) {
-        return !find_number(row.factors[f]).has_value();
+      std::any_of(rows.begin(), rows.end(), [&](const study::StudyRow& row) {
+        return !study::find_number(row.factors[f]).has_value();
       });
-  for (const StudyRow& row : rows) {
+  for (const study::StudyRow& row : rows) {
     if (!is_text) {
-      column.values.push_back(*find_number(row.factors[f]));
+      column.values.push_back(*study::find_number(row.factors[f]));
       continue;
     }
     auto at =
@@ -45,10 +46,11 @@ StudyColumn make_factor(const Study& study, const std::vector<StudyRow>& rows,
   return column;
 }
 
-StudyColumn make_response(const Study& study, const std::vector<StudyRow>& rows,
+StudyColumn make_response(const study::Study& study,
+                          const std::vector<study::StudyRow>& rows,
                           std::size_t r) {
   StudyColumn column{study.responses[r].name, {}};
-  for (const StudyRow& row : rows) {
+  for (const study::StudyRow& row : rows) {
     column.values.push_back(
         row.responses[r].value_or(std::numeric_limits<double>::quiet_NaN()));
   }
@@ -57,9 +59,11 @@ StudyColumn make_response(const Study& study, const std::vector<StudyRow>& rows,
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-results::Bar make_bar(double value, const std::optional<Interval>& interval,
+results::Bar make_bar(double value,
+                      const std::optional<study::Interval>& interval,
                       bool is_significant) {
-  const Interval range = interval.value_or(Interval{value, value});
+  const study::Interval range =
+      interval.value_or(study::Interval{value, value});
   return {is_significant ? value : kNone, range.low, range.high};
 }
 
@@ -68,7 +72,8 @@ using TwoBars = std::optional<std::pair<results::Bar, results::Bar>>;
 /// Bars of all factors for each response, of which `bars_of(factor, response)`
 /// gives the two, or none.
 template <typename BarsOf>
-std::vector<results::FactorBars> make_bars(const Study& study, BarsOf bars_of) {
+std::vector<results::FactorBars> make_bars(const study::Study& study,
+                                           BarsOf bars_of) {
   std::vector<results::FactorBars> all;
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     results::FactorBars bars;
@@ -85,28 +90,30 @@ std::vector<results::FactorBars> make_bars(const Study& study, BarsOf bars_of) {
   return all;
 }
 
-TwoBars make_effect_bars(const Effects& effects, std::size_t f, std::size_t r) {
+TwoBars make_effect_bars(const study::Effects& effects, std::size_t f,
+                         std::size_t r) {
   if (f >= effects.size() || !effects[f][r]) return std::nullopt;
-  const Effect& effect = *effects[f][r];
+  const study::Effect& effect = *effects[f][r];
   const bool is_significant = !effect.samples_needed;
   return std::pair(
       make_bar(effect.main, effect.main_interval, is_significant),
       make_bar(effect.total, effect.total_interval, is_significant));
 }
 
-TwoBars make_correlation_bars(const Correlations& found, std::size_t f,
+TwoBars make_correlation_bars(const study::Correlations& found, std::size_t f,
                               std::size_t r) {
   if (f >= found.size() || !found[f][r]) return std::nullopt;
-  const Correlation& one = *found[f][r];
+  const study::Correlation& one = *found[f][r];
   return std::pair(make_bar(one.linear, one.linear_interval, true),
                    make_bar(one.rank, one.rank_interval, true));
 }
 
 std::vector<results::DistributionCurve> make_curves(
-    const Study& study, const std::vector<StudyRow>& rows) {
+    const study::Study& study, const std::vector<study::StudyRow>& rows) {
   std::vector<results::DistributionCurve> curves;
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
-    const std::optional<Distribution> found = find_distribution(study, rows, r);
+    const std::optional<study::Distribution> found =
+        find_distribution(study, rows, r);
     if (!found) continue;
     curves.push_back({study.responses[r].name, found->values, found->mean,
                       found->mean_error, found->band});
@@ -116,7 +123,8 @@ std::vector<results::DistributionCurve> make_curves(
 
 }  // namespace
 
-void draw_study(const Study& study, const std::vector<StudyRow>& rows,
+void draw_study(const study::Study& study,
+                const std::vector<study::StudyRow>& rows,
                 const StudyFindings& findings,
                 const std::filesystem::path& folder) {
   if (rows.empty()) return;

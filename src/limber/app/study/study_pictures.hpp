@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "limber/app/study/study_file.hpp"
 #include "limber/app/study/study_table.hpp"
+#include "limber/study/study_file.hpp"
 
 namespace limber::app {
 
@@ -14,7 +14,8 @@ namespace limber::app {
 /// (`matrix.png`), the effects (`effects.png`), the correlations
 /// (`correlation.png`), and the distributions (`distribution.png`). A picture
 /// that fails gives a warning.
-void draw_study(const Study& study, const std::vector<StudyRow>& rows,
+void draw_study(const study::Study& study,
+                const std::vector<study::StudyRow>& rows,
                 const StudyFindings& findings,
                 const std::filesystem::path& folder);
 

@@ -35,16 +35,16 @@ void stop_on_signal(std::string_view, double fraction) {
   }
 }
 
-void describe_values(Manifest& out, const Factor& factor) {
-  if (const auto* listed = std::get_if<Listed>(&factor.values)) {
+void describe_values(Manifest& out, const study::Factor& factor) {
+  if (const auto* listed = std::get_if<study::Listed>(&factor.values)) {
     out.add("values", fmt::format("{}", fmt::join(listed->values, ", ")));
-  } else if (const auto* spread = std::get_if<Spread>(&factor.values)) {
+  } else if (const auto* spread = std::get_if<study::Spread>(&factor.values)) {
     out.add("scale", spread->is_logarithmic ? "logarithmic" : "linear");
     out.add("from", spread->from);
     out.add("to", spread->to);
     out.add("count", static_cast<double>(spread->count.value_or(0)));
   } else {
-    const Normal& normal = std::get<Normal>(factor.values);
+    const study::Normal& normal = std::get<study::Normal>(factor.values);
     out.add("mean", normal.mean);
     out.add("deviation", normal.deviation);
   }
@@ -53,23 +53,23 @@ void describe_values(Manifest& out, const Factor& factor) {
 /// Writes the description of a response.
 struct ResponseDescription {
   Manifest& out;
-  void operator()(const ProbeResponse& probe) const {
+  void operator()(const study::ProbeResponse& probe) const {
     out.add("probe", probe.column);
     out.add("measure", static_cast<double>(probe.measure));
   }
-  void operator()(const ContactResponse& contact) const {
+  void operator()(const study::ContactResponse& contact) const {
     out.add("contact", contact.first + "/" + contact.second);
     out.add("measure", contact.is_impulse ? "impulse" : "peak");
   }
-  void operator()(const SummaryResponse& summary) const {
+  void operator()(const study::SummaryResponse& summary) const {
     out.add("summary", summary.path);
   }
-  void operator()(const ExpressionResponse& expression) const {
+  void operator()(const study::ExpressionResponse& expression) const {
     out.add("expression", expression.formula);
   }
 };
 
-std::string describe_study(const Study& study) {
+std::string describe_study(const study::Study& study) {
   Manifest out;
   out.within("study", [&] {
     out.add("design", to_string(study.design.kind));
@@ -78,13 +78,13 @@ std::string describe_study(const Study& study) {
     for (const scene::Setting& setting : study.settings) {
       out.add("setting " + setting.path, setting.value.value_or("removed"));
     }
-    for (const Factor& factor : study.factors) {
+    for (const study::Factor& factor : study.factors) {
       out.within("factor '" + factor.name + "'", [&] {
         out.add("paths", fmt::format("{}", fmt::join(factor.paths, ", ")));
         describe_values(out, factor);
       });
     }
-    for (const Response& response : study.responses) {
+    for (const study::Response& response : study.responses) {
       out.within("response '" + response.name + "'", [&] {
         std::visit(ResponseDescription{out}, response.source);
       });
@@ -96,16 +96,16 @@ std::string describe_study(const Study& study) {
 /// The runs in threads.
 class Runner {
  public:
-  Runner(const Design& design, const StudyBase& base,
-         const StudyOptions& options, StudyFile& file)
+  Runner(const study::Design& design, const StudyBase& base,
+         const StudyOptions& options, study::StudyFile& file)
       : design_(design),
         study_(file.record().study),
         options_(options),
         file_(file),
         worker_(study_, options.cache, base.built.known, stop_on_signal) {
     std::set<std::size_t> done;
-    for (const StudyRow& row : file.read_rows()) done.insert(row.run);
-    const StudyRecord& record = file.record();
+    for (const study::StudyRow& row : file.read_rows()) done.insert(row.run);
+    const study::StudyRecord& record = file.record();
     for (std::size_t run = record.shard; run < design.size();
          run += record.shards) {
       if (!done.contains(run)) left_.push_back(run);
@@ -150,7 +150,7 @@ class Runner {
       while (!stops_ && find_received_signal() == 0) {
         const std::size_t next = next_++;
         if (next >= left_.size()) break;
-        std::optional<StudyRow> row =
+        std::optional<study::StudyRow> row =
             worker_.make_row(left_[next], design_[left_[next]]);
         if (!row) break;
         const std::lock_guard lock(rows_mutex_);
@@ -171,14 +171,14 @@ class Runner {
     constexpr auto kTogether = std::chrono::milliseconds(100);
     const Progress bar = make_progress_bar();
     for (bool is_done = false; !is_done;) {
-      std::vector<StudyRow> rows;
+      std::vector<study::StudyRow> rows;
       {
         std::unique_lock lock(rows_mutex_);
         ready_.wait_for(lock, kTogether, [this] { return working_ == 0; });
         rows.swap(rows_);
         is_done = working_ == 0 && rows.empty();
       }
-      for (StudyRow& row : rows) {
+      for (study::StudyRow& row : rows) {
         if (row.error.empty()) {
           evaluate_formulas(study_, row.factors, row.responses);
         }
@@ -193,10 +193,10 @@ class Runner {
     }
   }
 
-  const Design& design_;
-  const Study& study_;
+  const study::Design& design_;
+  const study::Study& study_;
   const StudyOptions& options_;
-  StudyFile& file_;
+  study::StudyFile& file_;
   StudyWorker worker_;
   std::vector<std::size_t> left_;
   std::size_t before_ = 0;
@@ -205,7 +205,7 @@ class Runner {
 
   std::mutex rows_mutex_;  // of the next four
   std::condition_variable ready_;
-  std::vector<StudyRow> rows_;
+  std::vector<study::StudyRow> rows_;
   std::size_t working_ = 0;
   std::exception_ptr failure_;
 
@@ -214,7 +214,7 @@ class Runner {
 
 }  // namespace
 
-StudyBase make_base(const Study& study, const Design& design,
+StudyBase make_base(const study::Study& study, const study::Design& design,
                     const std::filesystem::path& cache) {
   StudyBase base;
   base.scene =
@@ -232,8 +232,8 @@ StudyBase make_base(const Study& study, const Design& design,
   return base;
 }
 
-StudyCost run_study(const Design& design, const StudyBase& base,
-                    const StudyOptions& options, StudyFile& file) {
+StudyCost run_study(const study::Design& design, const StudyBase& base,
+                    const StudyOptions& options, study::StudyFile& file) {
   return Runner(design, base, options, file).run();
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/app/study/design.hpp"
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/design.hpp"
+#include "limber/study/study_file.hpp"
 
 namespace limber::app {
 
@@ -16,7 +16,8 @@ struct StudyBase {
 /// Loads and builds it, and checks the study against it: the paths of all
 /// factors, and the responses.
 /// @throws InputError naming what is wrong
-[[nodiscard]] StudyBase make_base(const Study& study, const Design& design,
+[[nodiscard]] StudyBase make_base(const study::Study& study,
+                                  const study::Design& design,
                                   const std::filesystem::path& cache);
 
 struct StudyOptions {
@@ -35,7 +36,7 @@ struct StudyCost {
 /// finish. Scenes are loaded one at a time, because the libraries for it are
 /// not thread-safe; each distinct reduction is done once.
 /// @throws Interrupted after SIGINT or SIGTERM; finished runs are in the file.
-StudyCost run_study(const Design& design, const StudyBase& base,
-                    const StudyOptions& options, StudyFile& file);
+StudyCost run_study(const study::Design& design, const StudyBase& base,
+                    const StudyOptions& options, study::StudyFile& file);
 
 }  // namespace limber::app

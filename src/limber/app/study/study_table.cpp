@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "limber/app/study/distribution.hpp"
+#include "limber/study/distribution.hpp"
 
 namespace limber::app {
 namespace {
@@ -20,19 +20,19 @@ std::string quote_cell(const std::string& text) {
   return quoted + "\"";
 }
 
-using Words = std::string StudyRow::*;
+using Words = std::string study::StudyRow::*;
 
 /// Rows with an error, or with warnings.
-std::vector<const StudyRow*> list_rows(const std::vector<StudyRow>& rows,
-                                       Words words) {
-  std::vector<const StudyRow*> found;
-  for (const StudyRow& row : rows) {
+std::vector<const study::StudyRow*> list_rows(
+    const std::vector<study::StudyRow>& rows, Words words) {
+  std::vector<const study::StudyRow*> found;
+  for (const study::StudyRow& row : rows) {
     if (!(row.*words).empty()) found.push_back(&row);
   }
   return found;
 }
 
-std::string describe_rows(const std::vector<StudyRow>& rows, Words words,
+std::string describe_rows(const std::vector<study::StudyRow>& rows, Words words,
                           const char* what) {
   const auto found = list_rows(rows, words);
   if (found.empty()) return "";
@@ -45,14 +45,14 @@ std::string to_number(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
 }
 
-std::string describe(const std::optional<Interval>& interval) {
+std::string describe(const std::optional<study::Interval>& interval) {
   if (!interval) return "";
   return fmt::format(" ({:.2f} to {:.2f})", interval->low, interval->high);
 }
 
-std::string describe_effects(const Study& study, std::size_t runs,
-                             const std::vector<StudyRow>& rows,
-                             const Effects& effects) {
+std::string describe_effects(const study::Study& study, std::size_t runs,
+                             const std::vector<study::StudyRow>& rows,
+                             const study::Effects& effects) {
   std::string text;
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     const std::string& response = study.responses[r].name;
@@ -74,8 +74,8 @@ std::string describe_effects(const Study& study, std::size_t runs,
   return text;
 }
 
-std::string describe_correlations(const Study& study,
-                                  const Correlations& correlations) {
+std::string describe_correlations(const study::Study& study,
+                                  const study::Correlations& correlations) {
   std::string text;
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     for (std::size_t f = 0; f < correlations.size(); ++f) {
@@ -95,12 +95,12 @@ std::string describe_correlations(const Study& study,
   return text;
 }
 
-Json to_list(const Interval& interval) {
+Json to_list(const study::Interval& interval) {
   return Json::array({interval.low, interval.high});
 }
 
 /// An effect that the samples do not carry is null.
-Json to_json(const Study& study, const Effect& effect) {
+Json to_json(const study::Study& study, const study::Effect& effect) {
   const std::string doubt = describe_doubt(study, effect);
   Json json{{"main", doubt.empty() ? Json(effect.main) : Json(nullptr)},
             {"total", doubt.empty() ? Json(effect.total) : Json(nullptr)}};
@@ -112,7 +112,7 @@ Json to_json(const Study& study, const Effect& effect) {
   return json;
 }
 
-Json to_json(const Correlation& correlation) {
+Json to_json(const study::Correlation& correlation) {
   return Json{{"linear", correlation.linear},
               {"linear_interval", to_list(correlation.linear_interval)},
               {"rank", correlation.rank},
@@ -123,12 +123,13 @@ Json to_json(const Correlation& correlation) {
 
 }  // namespace
 
-std::string to_csv(const Study& study, const std::vector<StudyRow>& rows) {
+std::string to_csv(const study::Study& study,
+                   const std::vector<study::StudyRow>& rows) {
   std::string text = "run";
-  for (const Factor& factor : study.factors) text += "," + factor.name;
-  for (const Response& one : study.responses) text += "," + one.name;
+  for (const study::Factor& factor : study.factors) text += "," + factor.name;
+  for (const study::Response& one : study.responses) text += "," + one.name;
   text += ",error,warnings";
-  for (const StudyRow& row : rows) {
+  for (const study::StudyRow& row : rows) {
     text += fmt::format("\n{}", row.run);
     for (const std::string& value : row.factors)
       text += "," + quote_cell(value);
@@ -138,11 +139,11 @@ std::string to_csv(const Study& study, const std::vector<StudyRow>& rows) {
   return text;
 }
 
-ResponseRange find_range(const std::vector<StudyRow>& rows,
+ResponseRange find_range(const std::vector<study::StudyRow>& rows,
                          std::size_t response) {
   ResponseRange range;
   double sum = 0.0;
-  for (const StudyRow& row : rows) {
+  for (const study::StudyRow& row : rows) {
     const auto& value = row.responses[response];
     if (!value) continue;
     range.least = range.count == 0 ? *value : std::min(range.least, *value);
@@ -154,13 +155,13 @@ ResponseRange find_range(const std::vector<StudyRow>& rows,
   return range;
 }
 
-StudyFindings find_findings(const Study& study, std::size_t runs,
-                            const std::vector<StudyRow>& rows) {
+StudyFindings find_findings(const study::Study& study, std::size_t runs,
+                            const std::vector<study::StudyRow>& rows) {
   return {find_effects(study, runs, rows), find_correlations(study, rows)};
 }
 
-std::string to_text(const Study& study, std::size_t runs,
-                    const std::vector<StudyRow>& rows,
+std::string to_text(const study::Study& study, std::size_t runs,
+                    const std::vector<study::StudyRow>& rows,
                     const StudyFindings& findings) {
   std::string text =
       fmt::format("{:<24} {:>6} {:>13} {:>13} {:>13}\n", "response", "runs",
@@ -184,19 +185,20 @@ std::string to_text(const Study& study, std::size_t runs,
   }
   text += describe_effects(study, runs, rows, findings.effects);
   text += describe_correlations(study, findings.correlations);
-  text += describe_rows(rows, &StudyRow::error, "failed");
-  text += describe_rows(rows, &StudyRow::warnings, "have warnings");
+  text += describe_rows(rows, &study::StudyRow::error, "failed");
+  text += describe_rows(rows, &study::StudyRow::warnings, "have warnings");
   return text;
 }
 
-Json to_json(const Study& study, std::size_t runs,
-             const std::vector<StudyRow>& rows, const StudyFindings& findings) {
+Json to_json(const study::Study& study, std::size_t runs,
+             const std::vector<study::StudyRow>& rows,
+             const StudyFindings& findings) {
   Json json{{"study", study.file.string()},
             {"design", to_string(study.design.kind)},
             {"runs", runs},
             {"done", rows.size()},
-            {"failed", list_rows(rows, &StudyRow::error).size()},
-            {"warned", list_rows(rows, &StudyRow::warnings).size()},
+            {"failed", list_rows(rows, &study::StudyRow::error).size()},
+            {"warned", list_rows(rows, &study::StudyRow::warnings).size()},
             {"responses", Json::object()}};
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     const ResponseRange range = find_range(rows, r);

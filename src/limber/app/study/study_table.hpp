@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "limber/app/console/json.hpp"
-#include "limber/app/study/correlation.hpp"
-#include "limber/app/study/effects.hpp"
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/correlation.hpp"
+#include "limber/study/effects.hpp"
+#include "limber/study/study_file.hpp"
 
 namespace limber::app {
 
 /// The table of runs: run, factors, responses, error, warnings; numbers with
 /// all their digits.
-[[nodiscard]] std::string to_csv(const Study& study,
-                                 const std::vector<StudyRow>& rows);
+[[nodiscard]] std::string to_csv(const study::Study& study,
+                                 const std::vector<study::StudyRow>& rows);
 
 /// Smallest, mean and largest value of one response over the runs that have it.
 struct ResponseRange {
@@ -23,24 +23,25 @@ struct ResponseRange {
   double mean = 0.0;     ///< [the response's unit]
   double largest = 0.0;  ///< [the response's unit]
 };
-[[nodiscard]] ResponseRange find_range(const std::vector<StudyRow>& rows,
+[[nodiscard]] ResponseRange find_range(const std::vector<study::StudyRow>& rows,
                                        std::size_t response);
 
 /// Statistics of the finished runs of a study.
 struct StudyFindings {
-  Effects effects;
-  Correlations correlations;
+  study::Effects effects;
+  study::Correlations correlations;
 };
 /// @param runs of the whole design
-[[nodiscard]] StudyFindings find_findings(const Study& study, std::size_t runs,
-                                          const std::vector<StudyRow>& rows);
+[[nodiscard]] StudyFindings find_findings(
+    const study::Study& study, std::size_t runs,
+    const std::vector<study::StudyRow>& rows);
 
 /// @param runs of the whole design
-[[nodiscard]] std::string to_text(const Study& study, std::size_t runs,
-                                  const std::vector<StudyRow>& rows,
+[[nodiscard]] std::string to_text(const study::Study& study, std::size_t runs,
+                                  const std::vector<study::StudyRow>& rows,
                                   const StudyFindings& findings);
-[[nodiscard]] Json to_json(const Study& study, std::size_t runs,
-                           const std::vector<StudyRow>& rows,
+[[nodiscard]] Json to_json(const study::Study& study, std::size_t runs,
+                           const std::vector<study::StudyRow>& rows,
                            const StudyFindings& findings);
 
 }  // namespace limber::app

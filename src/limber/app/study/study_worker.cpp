@@ -31,7 +31,7 @@ std::vector<std::string> list_warnings(const runs::Run& run) {
 
 }  // namespace
 
-StudyWorker::StudyWorker(const Study& study, std::filesystem::path cache,
+StudyWorker::StudyWorker(const study::Study& study, std::filesystem::path cache,
                          scene::KnownParts known, Progress watch)
     : study_(study),
       cache_(std::move(cache)),
@@ -40,9 +40,9 @@ StudyWorker::StudyWorker(const Study& study, std::filesystem::path cache,
       known_(std::move(known)),
       reducer_(make_reducer({})) {}
 
-std::optional<StudyRow> StudyWorker::make_row(
+std::optional<study::StudyRow> StudyWorker::make_row(
     std::size_t run, const std::vector<std::string>& factors) {
-  StudyRow row;
+  study::StudyRow row;
   row.run = run;
   row.factors = factors;
   row.responses.resize(study_.responses.size());
@@ -62,7 +62,7 @@ std::optional<StudyRow> StudyWorker::make_row(
 
 /// Adds to the row's times and warnings.
 runs::Run StudyWorker::make_run(
-    StudyRow& row, const std::optional<dynamics::Fidelity>& level) {
+    study::StudyRow& row, const std::optional<dynamics::Fidelity>& level) {
   const Clock::time_point start = Clock::now();
   scene::Scene scene;
   scene::BuiltScene built;
@@ -88,7 +88,7 @@ runs::Run StudyWorker::make_run(
   return run;
 }
 
-bool StudyWorker::simulate(StudyRow& row) {
+bool StudyWorker::simulate(study::StudyRow& row) {
   const runs::Run run = make_run(row, {});
   std::vector<runs::Run> at_levels;
   std::string place;

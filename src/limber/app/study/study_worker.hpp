@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "limber/app/run/run_scene.hpp"
-#include "limber/app/study/study_file.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene_robots.hpp"
+#include "limber/study/study_file.hpp"
 
 namespace limber::app {
 
@@ -23,22 +23,22 @@ class StudyWorker {
   /// @param cache empty for the default one
   /// @param known bodies that need no reduction
   /// @param watch called during runs; may throw to end one
-  StudyWorker(const Study& study, std::filesystem::path cache,
+  StudyWorker(const study::Study& study, std::filesystem::path cache,
               scene::KnownParts known, Progress watch);
 
   /// The row of one run without its formulas (evaluate_formulas). The row of a
   /// run that fails has its message.
   /// @param factors the run's values, as TOML
   /// @returns none if `watch` ended it with dynamics::Interrupted
-  [[nodiscard]] std::optional<StudyRow> make_row(
+  [[nodiscard]] std::optional<study::StudyRow> make_row(
       std::size_t run, const std::vector<std::string>& factors);
 
  private:
-  [[nodiscard]] bool simulate(StudyRow& row);
+  [[nodiscard]] bool simulate(study::StudyRow& row);
   [[nodiscard]] runs::Run make_run(
-      StudyRow& row, const std::optional<dynamics::Fidelity>& level);
+      study::StudyRow& row, const std::optional<dynamics::Fidelity>& level);
 
-  const Study& study_;
+  const study::Study& study_;
   std::filesystem::path cache_;
   Progress watch_;
   bool judges_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/design.hpp"
+#include "limber/study/design.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <numeric>
 #include <random>
 
-#include "limber/app/study/sobol_sequence.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
+#include "limber/study/sobol_sequence.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 using Matrix = std::vector<std::vector<double>>;
@@ -288,4 +288,4 @@ scene::Overrides to_overrides(const Study& study,
   return overrides;
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/design.hpp"
+#include "limber/study/design.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <set>
 
-#include "limber/app/study/sobol_sequence.hpp"
-#include "limber/app/study/study_reader.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/study/sobol_sequence.hpp"
+#include "limber/study/study_reader.hpp"
 
-namespace limber::app::design_test {
+namespace limber::study::design_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -220,4 +220,4 @@ TEST(Study, OfAnotherVersionIsRefused) {
 }
 
 }  // namespace
-}  // namespace limber::app::design_test
+}  // namespace limber::study::design_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/curve_measures.hpp"
+#include "limber/study/curve_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace limber::app::curve_measures_test {
+namespace limber::study::curve_measures_test {
 namespace {
 
 struct Curve {
@@ -127,4 +127,4 @@ TEST(LargestDerivative, OfASineIsItsAmplitudeByItsFrequency) {
 }
 
 }  // namespace
-}  // namespace limber::app::curve_measures_test
+}  // namespace limber::study::curve_measures_test

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace limber::app {
+namespace limber::study {
 
 /// Points of Sobol's sequence, whose first 2^k points fill each dimension
 /// evenly, for every k.
@@ -26,4 +26,4 @@ class SobolSequence {
   std::vector<std::vector<std::uint32_t>> directions_;  // a list a dimension
 };
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -12,7 +12,7 @@
 #include "limber/scene/text/setting.hpp"
 
 /// Contents of a study file, plain values. Manual: docs/reference/studies.md.
-namespace limber::app {
+namespace limber::study {
 
 /// Values one by one, each as TOML.
 struct Listed {
@@ -103,4 +103,4 @@ struct Study {
   std::string text;  ///< the file's
 };
 
-}  // namespace limber::app
+}  // namespace limber::study

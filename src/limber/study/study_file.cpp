@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/study_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 #include <cstring>
 #include <map>
 
-#include "limber/app/study/study_reader.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/records/digest.hpp"
 #include "limber/common/records/manifest.hpp"
+#include "limber/study/study_reader.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -335,4 +335,4 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
   }
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/study_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 
 #include <filesystem>
 
-#include "limber/app/study/study_reader.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/study/study_reader.hpp"
 
-namespace limber::app::study_file_test {
+namespace limber::study::study_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(AFileOfAStudy, RefusesRowsThatAreNotAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace limber::app::study_file_test
+}  // namespace limber::study::study_file_test

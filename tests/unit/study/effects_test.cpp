@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/effects.hpp"
+#include "limber/study/effects.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <functional>
 
-#include "limber/app/study/correlation.hpp"
-#include "limber/app/study/study_reader.hpp"
+#include "limber/study/correlation.hpp"
+#include "limber/study/study_reader.hpp"
 
-namespace limber::app::effects_test {
+namespace limber::study::effects_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -206,4 +206,4 @@ TEST(Correlations, OfEqualValuesHaveTheirMeanRank) {
 }
 
 }  // namespace
-}  // namespace limber::app::effects_test
+}  // namespace limber::study::effects_test

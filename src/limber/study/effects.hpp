@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/study_file.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// Where a value lies with a confidence of 95 % [its unit].
 struct Interval {
@@ -60,4 +60,4 @@ using Effects = std::vector<std::vector<std::optional<Effect>>>;
 [[nodiscard]] std::string describe_doubt(const Study& study,
                                          const Effect& effect);
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/distribution.hpp"
+#include "limber/study/distribution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace limber::app::distribution_test {
+namespace limber::study::distribution_test {
 namespace {
 
 Study make_study(DesignKind kind, std::size_t factors) {
@@ -100,4 +100,4 @@ TEST(StudyDistribution, IsNotOfGridsListsAndSingleRuns) {
 }
 
 }  // namespace
-}  // namespace limber::app::distribution_test
+}  // namespace limber::study::distribution_test

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/study/study.hpp"
 #include "limber/scene/build/scene.hpp"
+#include "limber/study/study.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// The runs of a study: for each the value of each factor, as TOML.
 using Design = std::vector<std::vector<std::string>>;
@@ -45,4 +45,4 @@ inline constexpr int kMostRuns = 10'000'000;
 [[nodiscard]] scene::Overrides to_overrides(
     const Study& study, const std::vector<std::string>& values);
 
-}  // namespace limber::app
+}  // namespace limber::study

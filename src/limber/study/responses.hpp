@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "limber/app/run/run_scene.hpp"
-#include "limber/app/study/study.hpp"
+#include "limber/runs/run.hpp"
+#include "limber/study/study.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// A number for each response; none if it does not exist, such as a restitution
 /// while bodies still touch, or is not finite.
@@ -37,4 +37,4 @@ void evaluate_formulas(const Study& study,
                        const std::vector<std::string>& factors,
                        ResponseValues& values);
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "limber/app/study/study_file.hpp"
+#include "limber/study/study_file.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// Distribution of a response over the values of the factors, and the
 /// uncertainty of its estimate with a confidence of 95 %.
@@ -46,4 +46,4 @@ struct Distribution {
 ///            less with more; 1 and 2 in closed form
 [[nodiscard]] double find_student_quantile(std::size_t degrees);
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/effects.hpp"
+#include "limber/study/effects.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 constexpr std::size_t kResamples = 1000;
@@ -219,4 +219,4 @@ std::string describe_doubt(const Study& study, const Effect& effect) {
                      study.design.samples, *effect.samples_needed);
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

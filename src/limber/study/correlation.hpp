@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "limber/app/study/effects.hpp"
+#include "limber/study/effects.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// Correlation of a response with a factor, from -1 to 1 [-].
 struct Correlation {
@@ -36,4 +36,4 @@ using Correlations = std::vector<std::vector<std::optional<Correlation>>>;
 [[nodiscard]] Correlations find_correlations(const Study& study,
                                              const std::vector<StudyRow>& rows);
 
-}  // namespace limber::app
+}  // namespace limber::study

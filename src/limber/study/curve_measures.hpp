@@ -6,7 +6,7 @@
 
 /// Numbers that describe a curve over the output times of a run. `values` has
 /// one for each of `times` [s], increasing.
-namespace limber::app {
+namespace limber::study {
 
 /// Largest distance beyond the final value, on the side away from the first
 /// one, over the distance of both [-]; 0 without. Between samples it is that
@@ -39,4 +39,4 @@ namespace limber::app {
 [[nodiscard]] std::optional<double> find_largest_derivative(
     std::span<const double> times, std::span<const double> values, int order);
 
-}  // namespace limber::app
+}  // namespace limber::study

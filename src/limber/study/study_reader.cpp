@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/study_reader.hpp"
+#include "limber/study/study_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <set>
 #include <sstream>
 
-#include "limber/app/study/design.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/files/input_file.hpp"
 #include "limber/scene/text/key_depth.hpp"
 #include "limber/scene/text/toml_table.hpp"
+#include "limber/study/design.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 using scene::Problems;
@@ -364,4 +364,4 @@ Study read_study(const std::string& text, const std::filesystem::path& file) {
   return study;
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/responses.hpp"
+#include "limber/study/responses.hpp"
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -8,15 +8,15 @@
 #include <cmath>
 #include <map>
 
-#include "limber/app/study/curve_measures.hpp"
-#include "limber/app/study/design.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/runs/probe_columns.hpp"
 #include "limber/runs/stress_peaks.hpp"
+#include "limber/study/curve_measures.hpp"
+#include "limber/study/design.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 using Parts = std::vector<std::string>;
@@ -438,4 +438,4 @@ void evaluate_formulas(const Study& study,
   }
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/app/study/study.hpp"
+#include "limber/study/study.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// Reads a study file.
 /// @throws InputError with every problem of the file.
@@ -13,4 +13,4 @@ namespace limber::app {
 [[nodiscard]] Study read_study(const std::string& text,
                                const std::filesystem::path& file);
 
-}  // namespace limber::app
+}  // namespace limber::study

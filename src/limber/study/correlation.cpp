@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/correlation.hpp"
+#include "limber/study/correlation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "limber/app/study/distribution.hpp"
+#include "limber/study/distribution.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 constexpr std::size_t kFewestPairs = 4;
@@ -91,4 +91,4 @@ Correlations find_correlations(const Study& study,
   return found;
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/distribution.hpp"
+#include "limber/study/distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "limber/app/study/design.hpp"
+#include "limber/study/design.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 constexpr double kMissed = 0.05;  // 1 - confidence
@@ -69,4 +69,4 @@ double find_student_quantile(std::size_t degrees) {
   return z * (1.0 + (g1 + (g2 + (g3 + g4 / n) / n) / n) / n);
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

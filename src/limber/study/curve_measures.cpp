@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/curve_measures.hpp"
+#include "limber/study/curve_measures.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 
 #include "limber/dynamics/equations/refined_peak.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 constexpr double kBand = 0.02;       // of a settled curve [-]
@@ -159,4 +159,4 @@ std::optional<double> find_largest_derivative(std::span<const double> times,
   return largest;
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/app/study/sobol_sequence.hpp"
+#include "limber/study/sobol_sequence.hpp"
 
 #include <array>
 
 #include "limber/common/errors.hpp"
 
-namespace limber::app {
+namespace limber::study {
 namespace {
 
 constexpr std::size_t kBits = 32;
@@ -83,4 +83,4 @@ std::vector<std::uint32_t> SobolSequence::point(std::uint32_t i) const {
   return x;
 }
 
-}  // namespace limber::app
+}  // namespace limber::study

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "limber/app/study/design.hpp"
-#include "limber/app/study/responses.hpp"
-#include "limber/app/study/study.hpp"
+#include "limber/study/design.hpp"
+#include "limber/study/responses.hpp"
+#include "limber/study/study.hpp"
 
-namespace limber::app {
+namespace limber::study {
 
 /// One line of the table of runs.
 struct StudyRow {
@@ -64,4 +64,4 @@ class StudyFile {
   StudyRecord record_;
 };
 
-}  // namespace limber::app
+}  // namespace limber::study
