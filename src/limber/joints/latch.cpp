@@ -50,18 +50,18 @@ SwitchValue Latch::find_switch(int index, const RelativeMotion& motion,
                : kOff;
   }
   if (memory.latch == LatchStatus::open) {
-    const double distance = motion.p_FM_F.norm();
-    const double rate =
-        distance > 0.0 ? motion.p_FM_F.dot(motion.v_FM_F) / distance : 0.0;
-    return {parameters_.reach - distance, -rate};
+    // Quadratic in a straight motion, also through zero distance.
+    const double reach = parameters_.reach;
+    return {0.5 * (reach - motion.p_FM_F.squaredNorm() / reach),
+            -motion.p_FM_F.dot(motion.v_FM_F) / reach};
   }
   if (!std::isfinite(parameters_.release_force)) return kOff;
   // The elastic part: the damper's initial force does not release the latch.
   const Matrix3& K = parameters_.bushing.translational_stiffness;
   const Vector3 force = K * (motion.p_FM_F - memory.X_FM.p);
-  const double size = force.norm();
-  const double rate = size > 0.0 ? force.dot(K * motion.v_FM_F) / size : 0.0;
-  return {size - parameters_.release_force, rate};
+  const double most = parameters_.release_force;
+  return {0.5 * (force.squaredNorm() / most - most),
+          force.dot(K * motion.v_FM_F) / most};
 }
 
 std::optional<EventKind> Latch::find_event(int index, bool rises,

@@ -52,8 +52,9 @@ class Latch : public WithoutCoordinates,
   /// any.
   [[nodiscard]] RequiredSides find_required_rotations() const;
 
-  /// Switch 0 rises through zero when an open latch closes or a closed one is
-  /// released by force; switch 1 at the release time.
+  /// Switch 0 rises through zero when an open latch closes, (reach^2 - p^2) /
+  /// (2 reach) [m], or a closed one is released by its force f, (f^2 - F^2) /
+  /// (2 F) [N]; switch 1 at the release time [s].
   [[nodiscard]] static int switch_count() { return 2; }
   [[nodiscard]] SwitchValue find_switch(int index, const RelativeMotion& motion,
                                         const CouplerMemory& memory,

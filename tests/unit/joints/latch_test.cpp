@@ -55,8 +55,8 @@ TEST(Latch, ClosesWhereTheDistanceFallsToItsReach) {
   RelativeMotion motion = at(Vector3(0.0, 0.12, 0.16));
   motion.v_FM_F = Vector3(5.0, -1.0, 0.0);
   const SwitchValue value = latch.find_switch(0, motion, {}, 0.0);
-  EXPECT_NEAR(value.value, -0.1, 1e-15);
-  EXPECT_NEAR(value.rate, 0.6, 1e-15);
+  EXPECT_NEAR(value.value, 0.5 * (0.1 - 0.04 / 0.1), 1e-15);
+  EXPECT_NEAR(value.rate, 0.16 / 0.1, 1e-15);
   EXPECT_GT(latch.find_switch(0, at(Vector3(0.05, 0.05, 0.05)), {}, 0.0).value,
             0.0);
 }
@@ -78,7 +78,7 @@ TEST(Latch, GivesWayWhereItsSpringExceedsTheForce) {
   const Latch latch(parameters());
   const RelativeMotion caught = at(Vector3(0.06, 0.08, 0.0));
   const CouplerMemory memory = closed_at(caught);
-  EXPECT_EQ(latch.find_switch(0, caught, memory, 0.0).value, -50.0);
+  EXPECT_EQ(latch.find_switch(0, caught, memory, 0.0).value, -25.0);
   // 30 N along x and 40 N along y; the damper does not count.
   RelativeMotion pulled = at(Vector3(0.36, 0.28, 0.0));
   pulled.v_FM_F = Vector3(1.0, 0.0, 0.0);

@@ -1,30 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/monitors/event_observer.hpp"
 
+#include <cmath>
+
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// First point in [0, 1] where the cubic through two values and rates (per step)
-// has the sign of its end.
-double find_root(const joints::SwitchValue& a, const joints::SwitchValue& b,
-                 double h, bool rises) {
-  const auto value = [&](double s) {
-    const double left = 1.0 - s;
-    return left * left * ((1.0 + 2.0 * s) * a.value + s * h * a.rate) +
-           s * s * ((1.0 + 2.0 * left) * b.value - left * h * b.rate);
-  };
+// First point in [0, high] where `is_past` becomes true, which it is at `high`.
+template <typename IsPast>
+double bisect(double high, const IsPast& is_past) {
   double low = 0.0;
-  double high = 1.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    const bool is_past = (value(middle) >= 0.0) == rises;
-    (is_past ? high : low) = middle;
+    (is_past(middle) ? high : low) = middle;
   }
   return high;
 }
+
+// The cubic through the values and rates of a switch at both ends of a step, at
+// fractions of the step.
+struct SwitchCubic {
+  const joints::SwitchValue& a;
+  const joints::SwitchValue& b;
+  double h;  // [s]
+
+  [[nodiscard]] double value(double s) const {
+    const double left = 1.0 - s;
+    return left * left * ((1.0 + 2.0 * s) * a.value + s * h * a.rate) +
+           s * s * ((1.0 + 2.0 * left) * b.value - left * h * b.rate);
+  }
+  [[nodiscard]] double slope(double s) const {
+    const double left = 1.0 - s;
+    return 6.0 * s * left * (b.value - a.value) +
+           h * (left * (1.0 - 3.0 * s) * a.rate + s * (3.0 * s - 2.0) * b.rate);
+  }
+
+  // Where the sign first is that of a switch that is up, or not.
+  [[nodiscard]] double find_root(double until, bool rises) const {
+    return bisect(until, [&](double s) { return (value(s) >= 0.0) == rises; });
+  }
+  // The same within the step, if the switch is there and back at its end.
+  [[nodiscard]] std::optional<double> find_excursion(bool rises) const {
+    constexpr double kRoundoff = 1e-9;
+    const double sign = rises ? 1.0 : -1.0;
+    if (!(sign * a.rate > 0.0) || !(sign * b.rate < 0.0)) return std::nullopt;
+    const double extreme =
+        bisect(1.0, [&](double s) { return sign * slope(s) <= 0.0; });
+    const double least = kRoundoff * h * (std::abs(a.rate) + std::abs(b.rate));
+    if (!(sign * value(extreme) > least)) return std::nullopt;
+    return find_root(extreme, rises);
+  }
+};
 
 }  // namespace
 
@@ -87,10 +116,16 @@ std::optional<EventObserver::Crossing> EventObserver::find_first(
   for (std::size_t i = 0; i < switches_.size(); ++i) {
     Switch& s = switches_[i];
     s.now = evaluate(s, after);
+    const SwitchCubic cubic{s.last, s.now, h};
     const bool is_up = s.now.value >= 0.0;
-    if (is_up == s.is_up) continue;
-    const double fraction = find_root(s.last, s.now, h, is_up);
-    if (!first || fraction < first->fraction) first = Crossing{i, fraction};
+    std::optional<double> fraction;
+    if (is_up != s.is_up) {
+      fraction = cubic.find_root(1.0, is_up);
+    } else if (changes == Changes::within) {
+      fraction = cubic.find_excursion(!is_up);
+    }
+    if (!fraction) continue;
+    if (!first || *fraction < first->fraction) first = Crossing{i, *fraction};
   }
   return first;
 }

@@ -21,16 +21,19 @@ class EventObserver {
   /// Initialises the switches. Latches within reach close.
   void start(SystemState& state, std::vector<Event>& events);
 
-  /// The first switch whose sign changed since the last accepted state, and its
+  /// The first switch whose sign changed since the last accepted state and its
   /// time, by the cubic through the values and rates at both ends.
   struct Crossing {
     std::size_t index = 0;  ///< index of the switch
     double fraction = 0.0;  ///< fraction of the step, in [0, 1] [-]
   };
+  /// Also of those whose sign has changed back by the step's end, or only of
+  /// those that differ there.
+  enum class Changes { within, at_end };
   /// @param after state at the step's end
   /// @param h length of the step [s]
-  [[nodiscard]] std::optional<Crossing> find_first(const SystemState& after,
-                                                   double h);
+  [[nodiscard]] std::optional<Crossing> find_first(
+      const SystemState& after, double h, Changes changes = Changes::within);
 
   /// Changes a switch's sign at `state`, in its memory.
   struct Change {

@@ -226,7 +226,8 @@ void EventStepper::pass(const EventObserver::Crossing& crossing,
 }
 
 void EventStepper::pass_all_at_end(SystemState& state, double h) {
-  while (const auto crossing = observer_.find_first(state, h)) {
+  constexpr auto kAtEnd = EventObserver::Changes::at_end;
+  while (const auto crossing = observer_.find_first(state, h, kAtEnd)) {
     pass(*crossing, state, h);
   }
   observer_.accept();

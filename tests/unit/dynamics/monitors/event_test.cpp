@@ -107,6 +107,56 @@ TEST_P(EventIn, ALatchClosesAtItsReachAndKeepsMomentum) {
   EXPECT_NEAR(r.energies.back().dissipated, 2.4, 2e-4);
 }
 
+// A body that passes a latch at a distance y, in steps that are longer than the
+// time that it is within reach; |p|^2 = (0.5 - 5 t)^2 + y^2.
+RunOutcome pass_latch(double y, const SimulationSettings& settings) {
+  SystemBuilder builder;
+  const Mass mass = add_mass(builder, "body", 2.0);
+  joints::Latch::Parameters latch{.reach = 0.02, .bushing = {}};
+  latch.bushing.translational_stiffness = 0.1 * Matrix3::Identity();
+  builder.add_coupler("latch", joints::Latch(latch),
+                      builder.attach_world("wall", {}), mass.frame);
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  state.bodies[0].p_WB = Vector3(0.5, y, 0.0);
+  state.bodies[0].v_WB_W.x() = -5.0;
+  return run_from(model, state, settings);
+}
+
+TEST_P(EventIn, ALatchClosesOnABodyThatIsPastItAfterTheStep) {
+  for (const double y : {0.0, 0.01, -0.019}) {
+    SCOPED_TRACE(y);
+    const RunOutcome r = pass_latch(y, settings(0.12, 0.04));
+    ASSERT_EQ(r.statistics.events.size(), 1U);
+    EXPECT_EQ(r.statistics.events[0].what, "latched");
+    EXPECT_NEAR(r.statistics.events[0].time,
+                (0.5 - std::sqrt(0.02 * 0.02 - y * y)) / 5.0, 1e-9);
+  }
+}
+
+TEST_P(EventIn, ALatchStaysOpenOutsideItsReach) {
+  const RunOutcome r = pass_latch(0.0201, settings(0.12, 0.04));
+  EXPECT_TRUE(r.statistics.events.empty());
+}
+
+// Thrown against a force that turns it round 5 mm behind a stop, within a step.
+TEST_P(EventIn, AStopIsReachedByABodyThatWouldTurnRoundWithinTheStep) {
+  SystemBuilder builder;
+  const Mass mass = add_mass(builder, "body", 2.0);
+  add_rail(builder, mass, "rail",
+           {{0, EndStop({.upper = 0.495, .stiffness = 1.0})}});
+  builder.set_gravity({-10.0, 0.0, 0.0});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  state.bodies[0].v_WB_W.x() = std::sqrt(10.0);  // turns at 0.5 m, 0.316 s
+  const RunOutcome r = run_from(model, state, settings(0.4, 0.1));
+  ASSERT_GE(r.statistics.events.size(), 1U);
+  EXPECT_EQ(r.statistics.events[0].what, "stop reached");
+  const double rate = std::sqrt(10.0 - 2.0 * 10.0 * 0.495);
+  EXPECT_NEAR(r.statistics.events[0].time, (std::sqrt(10.0) - rate) / 10.0,
+              1e-6);
+}
+
 TEST_P(EventIn, ALatchWithinReachAtTheStartClosesThere) {
   SystemBuilder builder;
   const Mass left = add_mass(builder, "left", 2.0);
