@@ -119,6 +119,10 @@ class SurfaceWriter {
     out_.write(at + "surface",
                moves_linearly(body) ? find_shared(body) : write_motion(b, at),
                kSurfaceMeaning);
+    if (moves_linearly(body) && has_modal_stress(body) &&
+        body.maxwell.size() > 0) {
+      write_stress(b, at, find_surface_rows(*body.reduced));
+    }
   }
 
  private:
@@ -128,8 +132,8 @@ class SurfaceWriter {
   std::string next_name() { return fmt::format("{:04}", count_++); }
 
   std::string find_shared(const BodyModel& body) {
-    const double scale = body.maxwell.scale;
-    const auto key = std::make_tuple(body.reduced.get(), body.modes, scale);
+    const bool relaxes = body.maxwell.size() > 0;
+    const auto key = std::make_tuple(body.reduced.get(), body.modes, relaxes);
     const auto found = shared_.find(key);
     if (found != shared_.end()) return found->second;
     std::string name = next_name();
@@ -137,10 +141,10 @@ class SurfaceWriter {
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
                   take_nodes(body.reduced->rows.Phi_B.leftCols(body.modes),
                              surface.rows));
-    if (has_modal_stress(body)) {
+    if (has_modal_stress(body) && !relaxes) {
       out_.write_single(
           "scene/surfaces/" + name + "/Sigma_B",
-          scale * take_stress(*body.reduced->stress, surface.rows, body.modes),
+          take_stress(*body.reduced->stress, surface.rows, body.modes),
           "kg^1/2 m^-2 s^-2",
           "stress of the shapes, 6n x m: xx, yy, zz, xy, yz, xz");
     }
@@ -183,8 +187,8 @@ class SurfaceWriter {
     return std::find(stressed.begin(), stressed.end(), name) != stressed.end();
   }
 
-  /// At levels `full` and `nonlinear` stress is not linear in the coordinates
-  /// of the shapes, and has shapes of its own.
+  /// At levels `full` and `nonlinear`, and with internal damping, stress is not
+  /// linear in the coordinates of the shapes, and has shapes of its own.
   void write_stress(std::size_t b, const std::string& at,
                     const SurfaceRows& surface) {
     const BodyModel& body = model_.bodies[b];
@@ -235,7 +239,7 @@ class SurfaceWriter {
   const SystemModel& model_;
   const History& history_;
   int count_ = 0;
-  std::map<std::tuple<const ReducedBody*, int, double>, std::string> shared_;
+  std::map<std::tuple<const ReducedBody*, int, bool>, std::string> shared_;
 };
 
 void write_bodies(Hdf5File& out, const Scenery& scenery,

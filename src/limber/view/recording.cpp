@@ -240,11 +240,11 @@ class RecordingReader {
     if (in_.has(drawn + "eta")) {
       body.eta = matrix(drawn + "eta", T, m);
       body.truncation = matrix(drawn + "truncation", 1, 1)(0, 0);
-      if (in_.has(drawn + "Sigma_B")) read_stress(drawn, body);
-      return;
+    } else {
+      body.eta = matrix(at + "eta", T, m);
+      body.etadot = matrix(at + "etadot", T, m);
     }
-    body.eta = matrix(at + "eta", T, m);
-    body.etadot = matrix(at + "etadot", T, m);
+    if (in_.has(drawn + "Sigma_B")) read_stress(drawn, body);
   }
 
   void read_stress(const std::string& drawn, Body& body) const {

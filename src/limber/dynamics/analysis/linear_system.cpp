@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
@@ -137,6 +138,18 @@ void fill_motions(const SystemModel& model, const SmallMotion& motion,
     const BodyModel& body = model.bodies[b];
     out.modes.block(body.offset, 0, body.modes, n) =
         c.x_of_position.middleRows(motion.modes[b], body.modes);
+  }
+  out.stressed_modes = out.modes;
+  // y = sqrt(lambda g) d of each element and mode (SmallMotion::Relaxation).
+  Index y = 2 * n;
+  for (const BodyModel& body : model.bodies) {
+    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
+    for (Index j = 0; j < body.maxwell.size(); ++j) {
+      for (Index k = 0; k < body.modes; ++k) {
+        out.stressed_modes(body.offset + k, y++) =
+            std::sqrt(body.maxwell.strengths[j] / lambda[k]);
+      }
+    }
   }
 }
 

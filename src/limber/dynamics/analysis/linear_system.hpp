@@ -43,6 +43,9 @@ struct LinearSystem {
   MatrixX frames;             ///< motion [m, rad]
   MatrixX frame_velocities;   ///< [m/s, rad/s]
   MatrixX modes;              ///< of all bodies, order of the state [kg^1/2 m]
+  /// Modes with the extensions of their Maxwell elements, sum_j g_j d_j, to
+  /// which stress is proportional [kg^1/2 m].
+  MatrixX stressed_modes;
 };
 
 /// @param frames attachments whose motion is needed for outputs

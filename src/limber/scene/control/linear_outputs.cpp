@@ -143,11 +143,16 @@ class Outputs {
       return;
     }
     const dynamics::BodyModel& body = observed_.model.bodies[index(probe.body)];
-    take(find_slopes(probe, body) *
-         system_.modes.middleRows(body.offset, body.modes));
+    const auto stressed =
+        system_.stressed_modes.middleRows(body.offset, body.modes);
+    const auto modes = system_.modes.middleRows(body.offset, body.modes);
+    const MatrixX Sigma_L = probe.Sigma_L.leftCols(body.modes);
+    take(body.maxwell.scale *
+         (Sigma_L * stressed + (find_slopes(probe, body) - Sigma_L) * modes));
   }
 
-  // Derivative of the stress by the modes, at this state.
+  // Derivative of the stress by the modes, at this state, without internal
+  // damping.
   [[nodiscard]] MatrixX find_slopes(const StressProbe& probe,
                                     const dynamics::BodyModel& body) const {
     MatrixX slopes = probe.Sigma_L.leftCols(body.modes);
