@@ -121,7 +121,7 @@ class SurfaceWriter {
                kSurfaceMeaning);
     if (moves_linearly(body) && has_modal_stress(body) &&
         body.maxwell.size() > 0) {
-      write_stress(b, at, find_surface_rows(*body.reduced));
+      write_relaxed_stress(body, at);
     }
   }
 
@@ -182,13 +182,35 @@ class SurfaceWriter {
     return name;
   }
 
+  /// Of a body below level `nonlinear` with internal damping: by its modes, of
+  /// which the Maxwell elements have coordinates of their own.
+  void write_relaxed_stress(const BodyModel& body, const std::string& at) {
+    const SurfaceRows surface = find_surface_rows(*body.reduced);
+    out_.write_single(
+        at + "Sigma_B",
+        take_stress(*body.reduced->stress, surface.rows, body.modes),
+        "kg^1/2 m^-2 s^-2",
+        "stress of the modes at the nodes of the surface, "
+        "6n x m: xx, yy, zz, xy, yz, xz");
+    Hdf5Rows rows(out_, at + "zeta", std::ssize(history_.states), body.modes,
+                  "kg^1/2 m", "coordinates of stress at each output time");
+    VectorX coordinates;
+    for (std::size_t i = 0; i < history_.states.size(); ++i) {
+      calc_stress_coordinates(body, history_.states[i], coordinates);
+      rows.next() = coordinates;
+    }
+    rows.close();
+    out_.write(at + "stress_truncation", MatrixX::Zero(1, 1), "Pa",
+               "largest von Mises stress that these shapes leave out");
+  }
+
   bool wants_stress(const std::string& name) const {
     const auto& stressed = scenery_.stressed;
     return std::find(stressed.begin(), stressed.end(), name) != stressed.end();
   }
 
-  /// At levels `full` and `nonlinear`, and with internal damping, stress is not
-  /// linear in the coordinates of the shapes, and has shapes of its own.
+  /// At levels `full` and `nonlinear` stress is not linear in the coordinates
+  /// of the shapes, and has shapes of its own.
   void write_stress(std::size_t b, const std::string& at,
                     const SurfaceRows& surface) {
     const BodyModel& body = model_.bodies[b];

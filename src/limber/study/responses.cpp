@@ -19,6 +19,8 @@
 namespace limber::study {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 using Parts = std::vector<std::string>;
 using Value = std::optional<double>;
 
@@ -135,8 +137,9 @@ int find_order(const results::ProbeColumn& column) {
 class Evaluation {
  public:
   /// @param own that of the responses without a level
-  Evaluation(const runs::Run& run, const runs::Run& own)
-      : run_(run), own_(own) {}
+  Evaluation(const runs::Run& run, const runs::Run& own,
+             const Summarize& summarize)
+      : run_(run), own_(own), summarize_(summarize) {}
 
   Value operator()(const ProbeResponse& probe) const {
     const auto& columns = run_.history.columns;
@@ -173,7 +176,7 @@ class Evaluation {
   }
 
   Value operator()(const SummaryResponse& summary) {
-    if (!json_) json_ = summarize(run_);
+    if (!json_) json_ = summarize_(run_);
     const Parts parts = split_response(summary.path);
     const Found found = find_path(*json_, parts);
     if (found.depth == parts.size()) {
@@ -183,12 +186,10 @@ class Evaluation {
       }
       return to_number(*found.node);
     }
-    const std::string& missing = parts[found.depth];
-    if (found.node->is_array() && scene::to_index(missing)) {
-      return std::nullopt;  // such as the second of one impact
-    }
+    // Such as the second of one impact, or the row of a pair without any.
+    if (found.node->is_array()) return std::nullopt;
     throw InputError(fmt::format("'{}': the summary has no '{}' there",
-                                 summary.path, missing));
+                                 summary.path, parts[found.depth]));
   }
 
   Value operator()(const ExpressionResponse&) const { return std::nullopt; }
@@ -223,6 +224,7 @@ class Evaluation {
 
   const runs::Run& run_;
   const runs::Run& own_;
+  const Summarize& summarize_;
   std::optional<Json> json_;
 };
 
@@ -253,8 +255,9 @@ Parts list_variables(const Study& study, std::size_t response) {
 /// Describes the error of one response; empty if it is valid.
 class Check {
  public:
-  Check(const Study& study, const scene::Scene& scene, const runs::Run& start)
-      : study_(study), scene_(scene), start_(start) {}
+  Check(const Study& study, const scene::Scene& scene, const runs::Run& start,
+        const Summarize& summarize)
+      : study_(study), scene_(scene), start_(start), summarize_(summarize) {}
 
   void set_index(std::size_t index) { index_ = index; }
 
@@ -288,7 +291,7 @@ class Check {
   }
 
   std::string operator()(const SummaryResponse& summary) const {
-    const Json json = summarize(start_);
+    const Json json = summarize_(start_);
     const Parts parts = split_response(summary.path);
     const Found found = find_path(json, parts);
     if (found.depth == parts.size()) {
@@ -344,6 +347,7 @@ class Check {
   const Study& study_;
   const scene::Scene& scene_;
   const runs::Run& start_;
+  const Summarize& summarize_;
   std::size_t index_ = 0;
 };
 
@@ -366,9 +370,10 @@ runs::Run make_start(const scene::Scene& scene,
 }  // namespace
 
 void check_responses(const Study& study, const scene::Scene& scene,
-                     const scene::BuiltScene& built) {
+                     const scene::BuiltScene& built,
+                     const Summarize& summarize) {
   const runs::Run start = make_start(scene, built);
-  Check check(study, scene, start);
+  Check check(study, scene, start, summarize);
   Parts problems;
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     check.set_index(i);
@@ -402,11 +407,14 @@ std::vector<dynamics::Fidelity> list_levels(const Study& study) {
 }
 
 ResponseValues evaluate_run(const Study& study, const runs::Run& run,
-                            const std::vector<runs::Run>& at_levels) {
+                            const std::vector<runs::Run>& at_levels,
+                            const Summarize& summarize) {
   const std::vector<dynamics::Fidelity> levels = list_levels(study);
-  Evaluation own(run, run);
+  Evaluation own(run, run, summarize);
   std::vector<Evaluation> others;
-  for (const runs::Run& other : at_levels) others.emplace_back(other, run);
+  for (const runs::Run& other : at_levels) {
+    others.emplace_back(other, run, summarize);
+  }
   ResponseValues values;
   for (const Response& response : study.responses) {
     const auto level = std::find(levels.begin(), levels.end(), response.level);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
@@ -13,10 +15,14 @@ namespace limber::study {
 /// while bodies still touch, or is not finite.
 using ResponseValues = std::vector<std::optional<double>>;
 
+/// The summary of a run, in which SummaryResponse::path is looked up.
+using Summarize = std::function<nlohmann::ordered_json(const runs::Run&)>;
+
 /// @throws InputError naming every response that runs of the scene cannot have:
 /// an unknown column, contact or figure, or a wrong formula.
 void check_responses(const Study& study, const scene::Scene& scene,
-                     const scene::BuiltScene& built);
+                     const scene::BuiltScene& built,
+                     const Summarize& summarize);
 
 /// Whether a response needs the judgement of levels, which costs time.
 [[nodiscard]] bool needs_levels(const Study& study);
@@ -30,7 +36,7 @@ void check_responses(const Study& study, const scene::Scene& scene,
 /// @throws InputError for a figure that the run's summary does not have
 [[nodiscard]] ResponseValues evaluate_run(
     const Study& study, const runs::Run& run,
-    const std::vector<runs::Run>& at_levels);
+    const std::vector<runs::Run>& at_levels, const Summarize& summarize);
 
 /// Adds the formulas. Not thread-safe.
 void evaluate_formulas(const Study& study,

@@ -2,6 +2,7 @@
 #include "limber/study/study_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -24,14 +25,25 @@ using scene::TomlTable;
 constexpr InputKind kStudy = {"study file", std::uint64_t{1} << 26};
 constexpr int kVersion = 1;
 
-std::string to_toml(const toml::node& node) {
-  if (const auto text = node.value_exact<std::string>()) return *text;
+/// A value on one line.
+std::string to_line(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) {
     return fmt::format("{}", *number);
+  }
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> values;
+    for (const toml::node& value : *array) values.push_back(to_line(value));
+    return fmt::format("[{}]", fmt::join(values, ", "));
   }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
+}
+
+/// For --set: a text without its quotes.
+std::string to_toml(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  return to_line(node);
 }
 
 Listed read_list(const toml::table& factor, const char* key, TomlTable& table) {

@@ -65,6 +65,22 @@ fs::path make_folder(const StudyCommandOptions& options,
   return folder;
 }
 
+/// Responses that no completed run has.
+std::vector<std::string> list_without_values(
+    const study::Study& study, const std::vector<study::StudyRow>& rows) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < study.responses.size(); ++i) {
+    bool is_done = false;
+    bool has_value = false;
+    for (const study::StudyRow& row : rows) {
+      is_done |= row.error.empty();
+      has_value |= row.error.empty() && row.responses.at(i).has_value();
+    }
+    if (is_done && !has_value) names.push_back(study.responses[i].name);
+  }
+  return names;
+}
+
 int find_jobs(const StudyCommandOptions& options) {
   if (options.jobs > 0) return options.jobs;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -80,6 +96,10 @@ void finish(const StudyCommandOptions& options, const fs::path& file,
   if (options.csv) {
     write_text(fs::path(file).replace_extension(".csv"),
                to_csv(record.study, rows));
+  }
+  for (const std::string& name : list_without_values(record.study, rows)) {
+    print_warnings(
+        {fmt::format("response '{}' has no value in any run", name)});
   }
   if (record.shards == 1) draw_study(record.study, rows, findings, folder);
   if (options.json) {

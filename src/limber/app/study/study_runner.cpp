@@ -16,6 +16,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
+#include "limber/app/run/run_scene.hpp"
 #include "limber/app/study/study_worker.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
@@ -226,7 +227,8 @@ StudyBase make_base(const study::Study& study, const study::Design& design,
   clear_progress_bar();
   print_more_notes(base.scene, base.built.notes);
   print_warnings(base.built.warnings);
-  check_responses(study, base.scene, base.built);
+  check_responses(study, base.scene, base.built,
+                  [](const runs::Run& run) { return summarize(run); });
   base.manifest = describe_study(study) +
                   runs::make_manifest(base.scene, base.built).text();
   return base;

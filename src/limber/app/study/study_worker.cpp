@@ -108,7 +108,9 @@ bool StudyWorker::simulate(study::StudyRow& row) {
     row.error = place + error.what();
     return true;
   }
-  row.responses = evaluate_run(study_, run, at_levels);
+  row.responses =
+      evaluate_run(study_, run, at_levels,
+                   [](const runs::Run& made) { return summarize(made); });
   return true;
 }
 
