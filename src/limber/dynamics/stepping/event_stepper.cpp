@@ -47,19 +47,13 @@ EventStepper::EventStepper(const SystemModel& model,
                settings.tolerance > 0.0 ? kUnlimited : kMostParts),
       limits_(model),
       ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
+      turns_(model),
       commit_pairs_(model),
       events_(events),
       last_flows_(make_flows(model)),
       flows_(last_flows_) {
   for (const Pair& pair : model.pairs) {
     joined_.push_back(find_joined_bodies(pair));
-  }
-  using Kind = joints::AxisCoordinate::Kind;
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      if (coordinates[i].kind == Kind::angle) angles_.push_back({c, i});
-    }
   }
   keeps_before_ =
       settings.tolerance > 0.0 || !observer_.is_empty() || !touches_.is_empty();
@@ -78,7 +72,7 @@ std::optional<DamperImpulse> EventStepper::start(SystemState& state, double h) {
   }
   touches_.start(state, events_);
   integrator_->start(state, h);
-  if (keeps_before_) before_ = state;  // so that no step allocates
+  before_ = state;  // so that no step allocates
   return impulse;
 }
 
@@ -172,12 +166,10 @@ void EventStepper::advance(SystemState& state, double h, double end) {
   next.iterations += last_.iterations;
   next.factorizations += last_.factorizations;
   last_ = next;
-  for (const Angle& angle : angles_) {
-    double& near = state.memory[angle.coupler].near[angle.coordinate];
-    const auto& law = model_.couplers[angle.coupler].law;
-    near = joints::find_position(
-        joints::coordinates_of(law)[angle.coordinate],
-        integrator_->terms().couplers[angle.coupler].motion, near);
+  const auto failure = turns_.count(integrator_->terms(), h, state);
+  if (failure && has_before_) {
+    take_back(state);
+    throw NumericalError(*failure);
   }
   commit_pairs_(state);
 }
@@ -187,7 +179,8 @@ void EventStepper::attempt(SystemState& state, double h, double end) {
   h_ = impacts_.limit(h, touches_);
   touches_.check_step(h_, state.t);
   touches_.mark_apart(state);
-  if (keeps_before_) before_ = state;
+  has_before_ = keeps_before_ || turns_.may_turn_far(state, h_);
+  if (has_before_) before_ = state;
   last_ = {};
   advance(state, h_, h_ < h ? state.t + h_ : end);
   while (const auto other = find_other_length(state)) {

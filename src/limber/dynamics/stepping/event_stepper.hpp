@@ -14,6 +14,7 @@
 #include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
 #include "limber/dynamics/stepping/damper_impulse.hpp"
+#include "limber/dynamics/stepping/turn_counter.hpp"
 
 namespace limber::dynamics {
 
@@ -105,10 +106,6 @@ class EventStepper {
   void exchange_memory(Archive& archive, const SystemState& state);
 
  private:
-  struct Angle {
-    std::size_t coupler;
-    std::size_t coordinate;
-  };
   void advance(SystemState& state, double h, double end);
   std::optional<double> find_other_length(const SystemState& state);
   [[nodiscard]] UnresolvedMotion choose_motion(
@@ -137,13 +134,14 @@ class EventStepper {
   ImpactSteps impacts_;
   LimitCrossing limits_;
   bool ends_at_limits_ = false;  // with a tolerance
-  std::vector<Angle> angles_;
+  TurnCounter turns_;
   std::vector<JoinedBodies> joined_;  // of each pair
   PairCommit commit_pairs_;
   std::vector<Event>& events_;
   bool is_implicit_ = false;
   bool conserves_impacts_ = false;
   bool keeps_before_ = false;
+  bool has_before_ = false;  // the attempted step can be taken back
   SystemState before_;
   double h_ = 0.0;                 // of the attempted step [s]
   std::size_t events_before_ = 0;  // count before it
