@@ -5,10 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <complex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -16,9 +13,8 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/damped_arm.hpp"
 #include "cli/shell.hpp"
-#include "limber/common/files/hdf5_file.hpp"
-#include "limber/common/types.hpp"
 #include "places.hpp"
 
 namespace limber::test::damping_test {
@@ -28,90 +24,6 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 constexpr int kBadInput = 2;
-constexpr double kLinkMass = 0.2 * 0.02 * 0.008 * 1500.0;  // [kg]
-
-struct Arm {
-  std::string holds = "fixed";  ///< "clamp", "fixed", or "pieces"
-  double tip_mass = 0.0;        ///< by the link's [-]
-  std::string damping = "ratio='0.02'";
-  std::string turned = "";  ///< attributes of the root's <origin>
-  double duration = 0.6;    ///< [s]
-};
-
-const char* const kBar =
-    "swept[] = {};\n"
-    "Point(1) = {0, -0.01, -0.004}; Point(2) = {0, 0.01, -0.004};\n"
-    "Point(3) = {0, 0.01, 0.004}; Point(4) = {0, -0.01, 0.004};\n"
-    "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-    "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-    "Transfinite Curve {1, 3} = 3; Transfinite Curve {2, 4} = 2;\n"
-    "Transfinite Surface {1}; Recombine Surface {1};\n"
-    "swept[] = Extrude {0.2, 0, 0} { Surface{1}; Layers{4}; Recombine; };\n"
-    "Physical Surface(\"root\") = {1}; Physical Surface(\"tip\") = "
-    "{swept[0]};\n"
-    "Physical Volume(\"body\") = {swept[1]};\n"
-    "Mesh.ElementOrder = 2;\n";
-
-/// A plastic bar of 200 x 20 x 8 mm, struck across at its tip.
-void write_arm(const Workspace& place, const Arm& arm) {
-  const bool is_clamped = arm.holds == "clamp";
-  std::string tip;
-  if (arm.tip_mass > 0.0) {
-    const double mass = arm.tip_mass * kLinkMass;
-    const double inertia = 1e-6 * mass;
-    tip = fmt::format(
-        "<link name='load'><inertial><mass value='{0}'/><inertia ixx='{1}' "
-        "iyy='{1}' izz='{1}' ixy='0' ixz='0' iyz='0'/></inertial></link>"
-        "<joint name='tip' type='fixed'><parent link='bar'/><child "
-        "link='load'/><origin xyz='0.2 0 0'/></joint>"
-        "<coupler joint='tip' translational_stiffness='1e10' "
-        "rotational_stiffness='1e8' translational_damping='0' "
-        "rotational_damping='0'/>",
-        mass, inertia);
-  }
-  place.write("bar.geo", kBar);
-  place.write(
-      "r.urdf",
-      fmt::format(
-          "<robot name='r'><link name='world'/><link name='bar'/>{}"
-          "<joint name='root' type='fixed'><parent link='world'/><child "
-          "link='bar'/><origin xyz='0 0 0' {}/></joint>"
-          "<flexible link='bar' pieces='{}'><mesh file='bar.geo'/><material "
-          "youngs_modulus='3e9' poisson_ratio='0.3' density='1500'/>"
-          "<damping {}/><basis eigenmodes='6'/>{}"
-          "<interface name='tip' group='tip'/></flexible>{}</robot>\n",
-          tip, arm.turned, arm.holds == "pieces" ? 2 : 1, arm.damping,
-          is_clamped ? "<clamp group='root'/>"
-                     : "<interface name='root' group='root'/>",
-          is_clamped ? ""
-                     : "<coupler joint='root' translational_stiffness='1e10' "
-                       "rotational_stiffness='1e8' translational_damping='0' "
-                       "rotational_damping='0'/>"));
-  place.write(
-      "s.toml",
-      fmt::format(
-          "robot = 'r.urdf'\n[time]\nduration = {}\nstep = 5e-4\nrho_inf = "
-          "1.0\noutput_interval = 5e-4\n[[load]]\nname = 'l'\nlink = 'bar'\n"
-          "interface = 'tip'\nforce = [0.0, 0.0, 0.1]\nframe = 'body'\n"
-          "time = {{ kind = 'pulse', shape = 'half-sine', start = 0.0, "
-          "duration = 0.02 }}\n[[probe]]\nname = 't'\nlink = 'bar'\n"
-          "interface = 'tip'\n[output]\npictures = false\n",
-          arm.duration));
-}
-
-json find_modes(const Workspace& place, const std::string& more = "") {
-  const CommandResult r =
-      place.limber("frequencies s.toml --count 8 --json " + more);
-  EXPECT_EQ(r.status, 0) << r.errors;
-  return json::parse(r.out).at("modes");
-}
-
-double ratio_of(const json& mode) {
-  return mode.at("damping_ratio").get<double>();
-}
-double frequency_of(const json& mode) {
-  return mode.at("frequency").get<double>();
-}
 
 /// The deflection across at the probe, at each output.
 std::vector<double> read_deflection(const Workspace& place,
@@ -396,75 +308,6 @@ TEST(Damping, IsPartOfALinearModel) {
   const CommandResult r = place.limber("linearize s.toml --output lin.json");
   ASSERT_EQ(r.status, 0) << r.errors;
   EXPECT_THAT(read_text(place.folder() / "lin.json"), HasSubstr("relaxation1"));
-}
-
-/// Frequency response of a linear model's output to its load.
-std::complex<double> find_response(const json& model, const std::string& output,
-                                   double omega) {
-  const auto read = [&](const char* name) {
-    const json& rows = model.at(name);
-    MatrixX values(std::ssize(rows), std::ssize(rows.at(0)));
-    for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      for (Eigen::Index j = 0; j < values.cols(); ++j) {
-        values(i, j) = rows[std::size_t(i)][std::size_t(j)].get<double>();
-      }
-    }
-    return values;
-  };
-  const std::vector<std::string> names = model.at("output_names");
-  const auto row = std::find(names.begin(), names.end(), output);
-  EXPECT_NE(row, names.end()) << output;
-  const MatrixX A = read("A");
-  Eigen::MatrixXcd pencil = -A.cast<std::complex<double>>();
-  pencil.diagonal().array() += std::complex<double>(0.0, omega);
-  const Eigen::VectorXcd x = pencil.partialPivLu().solve(
-      read("B").col(0).cast<std::complex<double>>());
-  return (read("C").row(row - names.begin()).cast<std::complex<double>>() * x)
-      .value();
-}
-
-// Of a statically determinate link stress does not depend on stiffness; near
-// the first mode it leads the deflection by the loss angle.
-TEST(Damping, StressOfALinearModelIsThatOfTheRelaxedMaterial) {
-  const Workspace place;
-  const auto linearize = [&](const std::string& damping) {
-    write_arm(place, {.holds = "clamp", .damping = damping});
-    place.write("s.toml", read_text(place.folder() / "s.toml") +
-                              "[[probe]]\nname = 's'\nlink = 'bar'\n"
-                              "nearest = [0.1, 0.01, 0.004]\n"
-                              "quantity = 'stress'\n");
-    const CommandResult r = place.limber("linearize s.toml -o lin.json");
-    EXPECT_EQ(r.status, 0) << r.errors;
-    return json::parse(read_text(place.folder() / "lin.json"));
-  };
-  const json elastic = linearize("ratio='1e-6'");
-  const json damped = linearize("ratio='0.1'");
-  const double still = find_response(elastic, "s.sxx", 0.0).real();
-  EXPECT_NEAR(find_response(damped, "s.sxx", 0.0).real() / still, 1.0, 1e-5);
-  const double first =
-      2.0 * std::numbers::pi * frequency_of(find_modes(place).at(0));
-  const std::complex<double> angle =
-      find_response(damped, "s.sxx", 0.9 * first) /
-      find_response(damped, "t.uz", 0.9 * first);
-  EXPECT_NEAR(std::abs(angle.imag() / angle.real()), 0.2, 0.02);
-}
-
-TEST(Damping, StressOfExportedResultsIsThatOfTheRun) {
-  const Workspace place;
-  write_arm(place, {.damping = "ratio='0.1'", .duration = 0.03});
-  place.write("s.toml", read_text(place.folder() / "s.toml") +
-                            "stress = true\n[[probe]]\nname = 's'\n"
-                            "link = 'bar'\nquantity = 'von_mises'\n");
-  ASSERT_EQ(place.limber("run s.toml --out o --xdmf").status, 0);
-  ASSERT_EQ(place.limber("export o -o m.xdmf").status, 0);
-  const Hdf5File run = Hdf5File::open(place.folder() / "o" / "motion.h5");
-  const Hdf5File exported = Hdf5File::open(place.folder() / "m.h5");
-  for (const char* step : {"000010", "000030", "000050"}) {
-    const std::string at = std::string("steps/") + step + "/von_mises";
-    const double most = run.read_matrix(at).maxCoeff();
-    EXPECT_GT(most, 1.0);
-    EXPECT_NEAR(exported.read_matrix(at).maxCoeff() / most, 1.0, 1e-4) << step;
-  }
 }
 
 }  // namespace
