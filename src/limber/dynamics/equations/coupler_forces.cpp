@@ -10,20 +10,6 @@
 namespace limber::dynamics {
 namespace {
 
-// Adds a wrench on M at Mo, expressed in F, and its reaction on F, shifted from
-// Mo to Fo.
-void add_pair(const SystemModel& model, const Coupler& coupler,
-              const Vector6& wrench_F, const Vector3& p_FM_F,
-              SystemTerms& terms) {
-  const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
-  const Vector3 force_F = wrench_F.head<3>();
-  const Vector3 force = R_WF * force_F;
-  const Vector3 moment = R_WF * wrench_F.tail<3>();
-  const Vector3 shift = R_WF * p_FM_F.cross(force_F);
-  add_wrench(model, coupler.frame_M, force, moment, terms);
-  add_wrench(model, coupler.frame_F, -force, -moment - shift, terms);
-}
-
 void apply_coupler(const SystemModel& model, const Coupler& coupler,
                    const joints::CouplerMemory& memory,
                    const EvaluationTime& now, WrenchSource source,
@@ -36,7 +22,7 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
         joints::find_constraint_gap(coupler.law, out.motion);
   }
   if (source == WrenchSource::law) out.applied = out.response.wrench;
-  add_pair(model, coupler, out.applied, out.motion.p_FM_F, terms);
+  add_coupler_wrench(model, coupler, out.applied, out.motion.p_FM_F, terms);
   out.received = -out.applied.head<3>().dot(out.motion.v_FM_F) -
                  out.applied.tail<3>().dot(out.motion.w_FM_F);
 }
@@ -62,8 +48,8 @@ void apply_transmission(const SystemModel& model, const SystemState& state,
   const auto& sum = std::get<JointSum>(transmission.coordinate);
   for (std::size_t i = 0; i < sum.terms.size(); ++i) {
     const auto c = index(sum.terms[i].coupler);
-    add_pair(model, model.couplers[c], out.applied * out.gradients[i],
-             terms.couplers[c].motion.p_FM_F, terms);
+    add_coupler_wrench(model, model.couplers[c], out.applied * out.gradients[i],
+                       terms.couplers[c].motion.p_FM_F, terms);
   }
 }
 
@@ -84,6 +70,18 @@ void add_wrench(const SystemModel& model, AttachmentIndex attachment,
     own.add_wrench(a, terms.attachments[index(attachment)], force_W, moment_W,
                    terms);
   });
+}
+
+void add_coupler_wrench(const SystemModel& model, const Coupler& coupler,
+                        const Vector6& wrench_F, const Vector3& p_FM_F,
+                        SystemTerms& terms) {
+  const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
+  const Vector3 force_F = wrench_F.head<3>();
+  const Vector3 force = R_WF * force_F;
+  const Vector3 moment = R_WF * wrench_F.tail<3>();
+  const Vector3 shift = R_WF * p_FM_F.cross(force_F);
+  add_wrench(model, coupler.frame_M, force, moment, terms);
+  add_wrench(model, coupler.frame_F, -force, -moment - shift, terms);
 }
 
 void apply_couplers(const SystemModel& model, const SystemState& state,

@@ -17,6 +17,12 @@ void add_wrench(const SystemModel& model, AttachmentIndex attachment,
                 const Vector3& force_W, const Vector3& moment_W,
                 SystemTerms& terms);
 
+/// Adds a coupler's wrench on M at Mo, expressed in F, and its reaction on F,
+/// shifted from Mo to Fo. @param p_FM_F Mo from Fo [m]
+void add_coupler_wrench(const SystemModel& model, const Coupler& coupler,
+                        const Vector6& wrench_F, const Vector3& p_FM_F,
+                        SystemTerms& terms);
+
 /// @param t time [s]
 /// @throws NumericalError with the coupler's name and the time before the text.
 [[noreturn]] void throw_named(const std::string& name, double t,

@@ -78,8 +78,8 @@ StepCause RunObservers::include(const SystemState& state,
   if (stepper_.length() < planned.length * kWhole) cause = StepCause::impact;
   if (length < stepper_.length() * kWhole) cause = StepCause::event;
   steps_.add(cause, length);
-  if (cause == StepCause::impact && !steps_.of_pair.empty()) {
-    steps_.of_pair[stepper_.impact_pair()] += 1.0;
+  if (cause == StepCause::impact && stepper_.impact_pair()) {
+    steps_.of_pair.at(*stepper_.impact_pair()) += 1.0;
   }
   if (cause == StepCause::tolerance) {
     steps_.of_body[stepper_.last().error_body] += 1.0;

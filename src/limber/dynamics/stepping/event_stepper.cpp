@@ -47,6 +47,7 @@ EventStepper::EventStepper(const SystemModel& model,
                settings.tolerance > 0.0 ? kUnlimited : kMostParts),
       limits_(model),
       ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
+      stops_(model, settings.impact_steps / refinement),
       turns_(model),
       commit_pairs_(model),
       events_(events),
@@ -177,6 +178,9 @@ void EventStepper::advance(SystemState& state, double h, double end) {
 void EventStepper::attempt(SystemState& state, double h, double end) {
   events_before_ = events_.size();
   h_ = impacts_.limit(h, touches_);
+  const double at_stop = stops_.limit(h, state);
+  is_at_stop_ = at_stop < h_;
+  h_ = std::min(h_, at_stop);
   touches_.check_step(h_, state.t);
   touches_.mark_apart(state);
   has_before_ = keeps_before_ || turns_.may_turn_far(state, h_);
@@ -367,6 +371,7 @@ void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   observer_.exchange_memory(archive);
   touches_.exchange_memory(archive);
   impacts_.exchange_memory(archive);
+  stops_.exchange_memory(archive);
   archive(cut_, losses_.work, losses_.dissipated, flows_);
   if (keeps_before_) before_ = state;
 }

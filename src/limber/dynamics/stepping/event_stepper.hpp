@@ -14,6 +14,7 @@
 #include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
 #include "limber/dynamics/stepping/damper_impulse.hpp"
+#include "limber/dynamics/stepping/stop_steps.hpp"
 #include "limber/dynamics/stepping/turn_counter.hpp"
 
 namespace limber::dynamics {
@@ -83,7 +84,10 @@ class EventStepper {
   /// Warns once of impacts that get longer steps than resolve them.
   void add_warnings(std::vector<std::string>& warnings);
   /// The pair whose impacts shorten steps.
-  [[nodiscard]] std::size_t impact_pair() const { return impacts_.fastest(); }
+  [[nodiscard]] std::optional<std::size_t> impact_pair() const {
+    if (is_at_stop_) return std::nullopt;
+    return impacts_.fastest();
+  }
   /// Which pairs touch.
   [[nodiscard]] ContactStartObserver& touches() { return touches_; }
 
@@ -134,6 +138,7 @@ class EventStepper {
   ImpactSteps impacts_;
   LimitCrossing limits_;
   bool ends_at_limits_ = false;  // with a tolerance
+  StopSteps stops_;
   TurnCounter turns_;
   std::vector<JoinedBodies> joined_;  // of each pair
   PairCommit commit_pairs_;
@@ -141,6 +146,7 @@ class EventStepper {
   bool is_implicit_ = false;
   bool conserves_impacts_ = false;
   bool keeps_before_ = false;
+  bool is_at_stop_ = false;  // the attempted step is short for a stop
   bool has_before_ = false;  // the attempted step can be taken back
   SystemState before_;
   double h_ = 0.0;                 // of the attempted step [s]

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::dynamics {
+
+/// Shortens steps while a joint strikes an end stop, so that its restitution is
+/// that of the stop, whatever the step of a run.
+///
+/// Equation   omega h <= pi / n, n steps a half period; omega^2 = k Y, k the
+///            stop's stiffness and Y the mobility of the joint's coordinate
+///            where it is reached, f' (w^2 M + w D + K)^-1 f w^2 at w = omega,
+///            f the forces of a unit force along it: what is much stiffer holds
+///            as a constraint. A stop that is reached again within two steps
+///            of the run, or at which the rate stays below omega d / 20 for
+///            1 / omega, d the depth, is at rest and does not count.
+/// Limits     stops of joints, in systems without unreduced bodies
+class StopSteps {
+ public:
+  /// @param model stored by reference
+  /// @param steps n > 0 [-]
+  StopSteps(const SystemModel& model, double steps);
+
+  /// Length of the next step from a state, at most h [s].
+  [[nodiscard]] double limit(double h, const SystemState& state);
+
+  /// Saves or restores its state for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+  // One end of a stop.
+  struct End {
+    std::size_t coupler = 0;
+    std::size_t coordinate = 0;
+    std::size_t place = 0;  // of its switch in the coupler's memory
+    double stiffness = 0.0;
+    double bound = 0.0;      // z where it is reached
+    bool is_on = false;      // the joint is at it
+    bool counts = false;     // and strikes it
+    double frequency = 0.0;  // omega [rad/s]
+    double left = kNever;    // when it was, the last time [s]
+    double moved = kNever;   // when it was last not slow [s]
+  };
+
+  void update(End& end, double h, const SystemState& state);
+  [[nodiscard]] double find_frequency(const End& end, double h,
+                                      const SystemState& state);
+
+  const SystemModel& model_;
+  double steps_;
+  std::vector<End> ends_;
+  double longest_ = std::numeric_limits<double>::infinity();  // next step [s]
+  // Of find_frequency().
+  SystemState apart_;
+  SystemTerms terms_;
+  NewtonMatrix matrix_;
+  VectorX no_motion_;
+  std::vector<Vector6> no_gaps_;
+  VectorX residual_;
+  VectorX increments_;
+};
+
+}  // namespace limber::dynamics
