@@ -289,7 +289,7 @@ LinearModel SampledLoop::find_model() {
     model.inputs.push_back(plant_.inputs[static_cast<std::size_t>(j)]);
   }
   for (const LoopController& c : controllers_) {
-    model.inputs.push_back({c.name + ".reference", "", 0.0});
+    model.inputs.push_back({c.name + ".reference", "", c.reference_value});
   }
   return model;
 }

@@ -36,6 +36,7 @@ struct LoopController {
   std::vector<Eigen::Index> measures;  ///< rows of C and D
   std::vector<LoopInput> writes;
   LoopReference reference = {};
+  double reference_value = 0.0;  ///< at the state of the linear model
 };
 
 /// Equal steps by which a loop moves between its samples, in place of exact

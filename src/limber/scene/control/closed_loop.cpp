@@ -78,6 +78,23 @@ std::string find_obstacle(const dynamics::ControllerModel& controller,
   return "";
 }
 
+// The reference with which a controller writes what it does at the state of the
+// linear model, without error if it integrates.
+double find_reference(const PidController& pid, const LoopController& made,
+                      const LinearScene& linear) {
+  const dynamics::PidParameters& p = pid.parameters();
+  const auto measured = [&](std::size_t i) {
+    return linear.model.outputs[index(static_cast<int>(made.measures[i]))]
+        .value;
+  };
+  if (p.integral != 0.0 || p.proportional == 0.0) return measured(0);
+  const double written =
+      linear.system.inputs[index(static_cast<int>(made.writes.front().value))]
+          .value;
+  const double braked = p.has_rate ? p.derivative * measured(1) : 0.0;
+  return measured(0) + (written + braked) / p.proportional;
+}
+
 LoopController make_loop_controller(const dynamics::SystemModel& model,
                                     const dynamics::ControllerModel& own,
                                     const LinearScene& linear) {
@@ -89,7 +106,7 @@ LoopController make_loop_controller(const dynamics::SystemModel& model,
   }
   const PidController& pid = pid_of(own);
   LoopController made{own.name, own.period, own.offset, pid.linearise(),
-                      {},       {},         {}};
+                      {},       {},         {},         0.0};
   for (const dynamics::Measurement& measured : own.measures) {
     made.measures.push_back(find_row(linear.model.outputs, measured.name));
   }
@@ -97,6 +114,7 @@ LoopController make_loop_controller(const dynamics::SystemModel& model,
     made.writes.push_back(
         find_loop_input(linear.system, model.inputs[index(input)], input));
   }
+  made.reference_value = find_reference(pid, made, linear);
   const auto* follows =
       std::get_if<joints::InputSignal>(&pid.parameters().reference.base);
   if (follows != nullptr) {

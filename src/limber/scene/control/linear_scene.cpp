@@ -18,7 +18,22 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// The scenario's drives there, in its order.
+/// Drives of a transmission that are not the scenario's: its constant tension.
+int count_own_drives(const Scenario& scenario,
+                     const dynamics::Transmission& transmission) {
+  const auto all = std::count_if(
+      transmission.laws.begin(), transmission.laws.end(), [](const auto& law) {
+        return std::holds_alternative<joints::Drive>(law);
+      });
+  const auto given =
+      std::count_if(scenario.drives.begin(), scenario.drives.end(),
+                    [&](const DriveSpec& drive) {
+                      return drive.tendon == transmission.name;
+                    });
+  return static_cast<int>(all - given);
+}
+
+/// The scenario's drives there, in its order, after a tendon's own.
 dynamics::DriveNames name_drives(const Scenario& scenario,
                                  const dynamics::SystemModel& model) {
   return [&](const dynamics::DriveSource& source) {
@@ -27,6 +42,12 @@ dynamics::DriveNames name_drives(const Scenario& scenario,
         is_joint ? model.couplers[index(source.coupler)].name
                  : model.transmissions[index(source.transmission)].name;
     int left = source.number;
+    if (!is_joint) {
+      const int own = count_own_drives(
+          scenario, model.transmissions[index(source.transmission)]);
+      if (left < own) return of + ".tension";
+      left -= own;
+    }
     for (const DriveSpec& drive : scenario.drives) {
       if ((is_joint ? drive.joint : drive.tendon) != of) continue;
       if (left-- == 0) return drive.name;
