@@ -172,28 +172,28 @@ class Planner {
         on, fmt::join(carries, ", "));
   }
 
+  /// Of each link merged in a body that is not a point, else of the body.
   void check_inertia(const BodyPlan& body) {
-    const std::string problem = dynamics::find_inertia_problem(body.inertia);
-    if (problem.empty()) return;
-    problems_.add(0, fmt::format("link '{}'{}: {}; --repair-inertia uses the "
-                                 "nearest that is physical",
-                                 body.name, find_bad_inertias(body), problem));
+    bool is_bad = false;
+    for (const int i : body.links) {
+      const Link& link = robot_.links[index(i)];
+      if (!link.inertia || link.inertia->inertia.isZero(0.0)) continue;
+      is_bad |=
+          add_problem(link.name, link.inertia->place, link.inertia->inertia);
+    }
+    if (!is_bad) add_problem(body.name, "", body.inertia);
   }
 
-  /// Where the inertias are, of the links merged in a body, that no mass has.
-  [[nodiscard]] std::string find_bad_inertias(const BodyPlan& body) const {
-    constexpr int kMost = 3;
-    std::string places;
-    int count = 0;
-    for (const int i : body.links) {
-      const auto& inertia = robot_.links[index(i)].inertia;
-      if (!inertia || inertia->place.empty()) continue;
-      if (dynamics::find_inertia_problem(inertia->inertia).empty()) continue;
-      if (++count > kMost) continue;
-      places += (count > 1 ? ", " : " at ") + inertia->place;
-    }
-    if (count <= kMost) return places;
-    return places + fmt::format(" and {} more", count - kMost);
+  /// @returns whether there is one
+  bool add_problem(const std::string& link, const std::string& place,
+                   const Matrix3& inertia) {
+    const std::string problem = dynamics::find_inertia_problem(inertia);
+    if (problem.empty()) return false;
+    problems_.add(
+        0, fmt::format("link '{}'{}{}: {}; --repair-inertia uses the "
+                       "nearest that is physical",
+                       link, place.empty() ? "" : " at ", place, problem));
+    return true;
   }
 
   const Robot& robot_;

@@ -44,6 +44,23 @@ TEST(BodyPlan, MergesFixedRigidLinksByTheParallelAxisTheorem) {
   EXPECT_TRUE(plans.coupled_joints.empty());
 }
 
+// Also where that of the merged body is possible.
+TEST(BodyPlan, RefusesTheInertiaOfAMergedLinkThatNoMassHas) {
+  Robot robot;
+  robot.links = {make_link("a", 1), make_link("point", 0.1),
+                 make_link("b", 0.2)};
+  robot.links[1].inertia->inertia.setZero();
+  robot.links[2].inertia->inertia =
+      Vector3(0.001, 0.001, 0.009).asDiagonal().toDenseMatrix();
+  robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
+                  make_joint(1, 2, joints::JointKind::fixed)};
+  const std::string text = test::input_error(
+      [&] { (void)plan_bodies(robot, std::vector<ReducedPieces>(3)); });
+  EXPECT_THAT(text, ::testing::HasSubstr("link 'b'"));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("link 'a'")));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("link 'point'")));
+}
+
 TEST(BodyPlan, TakesTheLinkCalledWorldAsTheWorld) {
   Robot robot;
   robot.links = {make_link("world", 0), make_link("a", 0), make_link("b", 2)};
