@@ -35,8 +35,10 @@ StopSteps::StopSteps(const SystemModel& model, double steps)
           end.coordinate = static_cast<std::size_t>(element.coordinate);
           end.place = place + side;
           end.stiffness = p.stiffness;
-          end.bound = side == 0 ? p.upper : p.lower;
-          if (std::isfinite(end.bound)) ends_.push_back(end);
+          end.damping = p.damping;
+          if (std::isfinite(side == 0 ? p.upper : p.lower)) {
+            ends_.push_back(end);
+          }
         }
       }
       place += static_cast<std::size_t>(joints::switch_count(element.law));
@@ -77,19 +79,12 @@ void StopSteps::update(End& end, double h, const SystemState& state) {
   }
   if (!was_on) {
     end.counts = state.t - end.left > kBounce * h;
-    end.moved = state.t;
+    end.reached = state.t;
     if (end.counts) end.frequency = find_frequency(end, h, state);
   }
-  if (!end.counts) return;
-  const auto& coordinates =
-      joints::coordinates_of(model_.couplers[end.coupler].law);
-  const joints::CoordinateValue value = joints::evaluate(
-      coordinates[end.coordinate],
-      find_relative_motion(model_, state, CouplerIndex(end.coupler)),
-      memory.near[end.coordinate]);
-  const double depth = std::abs(value.z - end.bound);
-  if (std::abs(value.rate) > kSlow * end.frequency * depth) end.moved = state.t;
-  end.counts = (state.t - end.moved) * end.frequency < 1.0;
+  const double halves =
+      (state.t - end.reached) * end.frequency / std::numbers::pi;
+  end.counts = end.counts && halves < kLongest;
 }
 
 double StopSteps::find_frequency(const End& end, double h,
@@ -110,6 +105,8 @@ double StopSteps::find_frequency(const End& end, double h,
   clear_forces(model_, terms_);
   add_coupler_wrench(model_, coupler, value.gradient, motion.p_FM_F, terms_);
   calc_residual(model_, no_motion_, terms_, residual_);
+  const double stiffness =
+      end.stiffness * (1.0 + end.damping * std::abs(value.rate));
   double omega = std::numbers::pi / (steps_ * h);
   for (int i = 0; i < kMostRepeats; ++i) {
     matrix_.factor(model_, apart_, terms_, no_motion_, {omega * omega, omega},
@@ -117,7 +114,7 @@ double StopSteps::find_frequency(const End& end, double h,
     matrix_.solve(model_, terms_, residual_, no_gaps_, increments_);
     const double mobility = -omega * omega * residual_.dot(increments_);
     const double last = omega;
-    omega = std::sqrt(std::max(end.stiffness * mobility, 0.0));
+    omega = std::sqrt(std::max(stiffness * mobility, 0.0));
     if (!(std::abs(omega - last) > kNear * last)) break;
   }
   return omega;
@@ -126,7 +123,7 @@ double StopSteps::find_frequency(const End& end, double h,
 void StopSteps::exchange_memory(Archive& archive) {
   archive(longest_);
   for (End& end : ends_) {
-    archive(end.is_on, end.counts, end.frequency, end.left, end.moved);
+    archive(end.is_on, end.counts, end.frequency, end.reached, end.left);
   }
 }
 

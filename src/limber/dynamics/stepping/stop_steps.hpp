@@ -13,13 +13,15 @@ namespace limber::dynamics {
 /// Shortens steps while a joint strikes an end stop, so that its restitution is
 /// that of the stop, whatever the step of a run.
 ///
-/// Equation   omega h <= pi / n, n steps a half period; omega^2 = k Y, k the
-///            stop's stiffness and Y the mobility of the joint's coordinate
-///            where it is reached, f' (w^2 M + w D + K)^-1 f w^2 at w = omega,
-///            f the forces of a unit force along it: what is much stiffer holds
-///            as a constraint. A stop that is reached again within two steps
-///            of the run, or at which the rate stays below omega d / 20 for
-///            1 / omega, d the depth, is at rest and does not count.
+/// Equation   omega h <= pi / n, n steps a half period; omega^2 = k (1 + b v)
+/// Y,
+///            k and b of the stop, v the rate at which it is reached and Y the
+///            mobility of the joint's coordinate there,
+///            w^2 f' (w^2 M + w D + K)^-1 f at w = omega, f the forces of a
+///            unit force along it: what is much stiffer holds as a constraint.
+///            A stop that is reached again within two steps of the run, or was
+///            reached longer than six half periods ago, is at rest and does
+///            not count.
 /// Limits     stops of joints, in systems without unreduced bodies
 class StopSteps {
  public:
@@ -39,14 +41,14 @@ class StopSteps {
   struct End {
     std::size_t coupler = 0;
     std::size_t coordinate = 0;
-    std::size_t place = 0;  // of its switch in the coupler's memory
-    double stiffness = 0.0;
-    double bound = 0.0;      // z where it is reached
+    std::size_t place = 0;   // of its switch in the coupler's memory
+    double stiffness = 0.0;  // k [N/m or N m/rad]
+    double damping = 0.0;    // b [s/m or s/rad]
     bool is_on = false;      // the joint is at it
     bool counts = false;     // and strikes it
     double frequency = 0.0;  // omega [rad/s]
-    double left = kNever;    // when it was, the last time [s]
-    double moved = kNever;   // when it was last not slow [s]
+    double reached = 0.0;    // when it was, the last time [s]
+    double left = kNever;    // likewise [s]
   };
 
   void update(End& end, double h, const SystemState& state);
