@@ -111,7 +111,7 @@ void EventObserver::start(SystemState& state, std::vector<Event>& events) {
 }
 
 std::optional<EventObserver::Crossing> EventObserver::find_first(
-    const SystemState& after, double h) {
+    const SystemState& after, double h, Changes changes) {
   std::optional<Crossing> first;
   for (std::size_t i = 0; i < switches_.size(); ++i) {
     Switch& s = switches_[i];
