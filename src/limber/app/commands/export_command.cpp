@@ -98,6 +98,10 @@ void export_checkpoint(const ExportOptions& options) {
 }
 
 void export_results(const ExportOptions& options) {
+  if (!std::filesystem::exists(options.results)) {
+    throw InputError(
+        fmt::format("'{}': no such file or folder", options.results));
+  }
   if (results::is_checkpoint_file(options.results)) {
     export_checkpoint(options);
     return;

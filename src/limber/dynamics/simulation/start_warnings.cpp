@@ -12,10 +12,12 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/oscillation.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -87,13 +89,52 @@ Measure find_measure(const SystemModel& model, const SystemState& state,
   return sum;
 }
 
-void check_bounds(const Start& start, const joints::ScalarLaw& law,
-                  SimulationStatistics& statistics) {
+// Acceleration of a joint's coordinate in a system at rest.
+double find_acceleration(const SystemModel& model, const SystemState& state,
+                         CouplerIndex c, int coordinate) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  VectorX accelerations = make_unknowns(model);
+  solve_accelerations(model, terms, accelerations);
+  SystemState after_unit_time = state;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    BodyState& rigid = after_unit_time.bodies[b];
+    rigid.v_WB_W = translation_rows(body, accelerations);
+    rigid.w_WB_B = rotation_rows(body, accelerations);
+    after_unit_time.etadot.segment(body.offset, body.modes) =
+        mode_rows(body, accelerations);
+  }
+  return evaluate_coordinate(model, after_unit_time, c, coordinate).motion.rate;
+}
+
+// Whether a joint at rest beyond its stops stays there, as at an equilibrium.
+bool is_balanced(const SystemModel& model, const SystemState& state,
+                 CouplerIndex c, const Start& start, int coordinate) {
+  constexpr double kBalanced = 1e-3;
+  if (start.motion.rate != 0.0 || model.nodal_count > 0) return false;
+  SystemState without = state;
+  without.memory[index(c)].switches.fill(joints::SwitchMode::off);
+  const double with_stops = find_acceleration(model, state, c, coordinate);
+  const double of_stops =
+      with_stops - find_acceleration(model, without, c, coordinate);
+  return std::abs(with_stops) <= kBalanced * std::abs(of_stops);
+}
+
+std::optional<joints::BeyondBound> find_excess(const Start& start,
+                                               const joints::ScalarLaw& law) {
   const auto beyond = joints::find_beyond_bound(law, start.motion);
-  if (!beyond) return;
+  if (!beyond) return std::nullopt;
   const double size = std::max(
       {start.measure.size, std::abs(beyond->bound), std::abs(start.motion.z)});
-  if (beyond->by <= kOnStop * size + start.measure.noise) return;
+  if (beyond->by <= kOnStop * size + start.measure.noise) return std::nullopt;
+  return beyond;
+}
+
+void check_bounds(const Start& start, const joints::ScalarLaw& law,
+                  SimulationStatistics& statistics) {
+  const auto beyond = find_excess(start, law);
+  if (!beyond) return;
   statistics.events.push_back(
       {start.time, start.name, "starts beyond a stop", start.motion.rate});
   statistics.warnings.push_back(fmt::format(
@@ -128,6 +169,11 @@ void add_start_warnings(const SystemModel& model, const SystemState& state,
       const Start start{
           state.t, coupler.name, *motion,
           find_measure(model, state, coupler, element.coordinate)};
+      if (find_excess(start, element.law) &&
+          is_balanced(model, state, static_cast<CouplerIndex>(c), start,
+                      element.coordinate)) {
+        continue;
+      }
       check_bounds(start, element.law, statistics);
     }
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/build/build_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -11,6 +14,7 @@
 #include "limber/common/records/manifest.hpp"
 #include "limber/dynamics/analysis/elastic_band.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
@@ -60,6 +64,46 @@ void spin(const Scene& scene, BuiltScene& built) {
         "relaxation is for systems at rest; this one starts with velocities");
   }
   built.initial = dynamics::find_steady_spin(built.model, built.initial);
+}
+
+/// How fast a disturbance of an equilibrium or a steady rotation grows
+/// [1/s]; 0 if it does not, or is not computed.
+double find_growth(const BuiltScene& built) {
+  constexpr int kMostAtRest = 600;  // unknowns, of dense matrices
+  constexpr int kMostMoving = 200;
+  constexpr double kRoundoff = 1e-6;  // of the fastest motion
+  const dynamics::SystemModel& model = built.model;
+  const int unknowns =
+      6 * static_cast<int>(model.bodies.size()) + model.modal_count;
+  const bool is_moving = dynamics::moves(built.initial);
+  if (model.nodal_count > 0 || !model.pairs.empty() ||
+      unknowns > (is_moving ? kMostMoving : kMostAtRest)) {
+    return 0.0;
+  }
+  if (!is_moving) {
+    const VectorX all = find_natural_frequencies(model, built.initial);
+    if (all.size() == 0 || all[0] >= 0.0) return 0.0;
+    return 2.0 * std::numbers::pi * -all[0];
+  }
+  double fastest = 0.0;
+  double growth = 0.0;
+  for (const auto& mode : find_natural_modes(model, built.initial).modes) {
+    fastest = std::max(fastest, std::abs(mode.value));
+    growth = std::max(growth, mode.value.real());
+  }
+  return growth > kRoundoff * fastest ? growth : 0.0;
+}
+
+/// Controllers may hold what is unstable without them.
+void warn_of_growth(const Scene& scene, BuiltScene& built) {
+  if (!scene.scenario.controllers.empty()) return;
+  const double growth = find_growth(built);
+  if (growth == 0.0) return;
+  built.warnings.push_back(fmt::format(
+      "[initial] equilibrium: the {} that was found is unstable: a disturbance "
+      "grows as exp({:.3g} t / s)",
+      dynamics::moves(built.initial) ? "steady rotation" : "equilibrium",
+      growth));
 }
 
 void settle(const Scene& scene, BuiltScene& built) {
@@ -154,7 +198,10 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   built.initial = assembly.make_initial_state(built.model);
   dynamics::check_rounding(built.model, built.initial);
   assembly.check_start(built.model, built.initial);
-  if (scene.scenario.equilibrium) settle(scene, built);
+  if (scene.scenario.equilibrium) {
+    settle(scene, built);
+    warn_of_growth(scene, built);
+  }
   built.probes = assembly.make_probes(built.model);
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);

@@ -17,12 +17,16 @@ void remove_children(TiXmlElement& element,
 
 void prune_joint(TiXmlElement& joint) {
   remove_children(joint, {"safety_controller", "calibration"});
-  const char* type = joint.Attribute("type");
-  if (type != nullptr && std::string(type) == "fixed") {
+  const char* attribute = joint.Attribute("type");
+  const std::string type = attribute == nullptr ? "" : attribute;
+  if (type == "fixed") {
     remove_children(joint, {"axis", "limit", "dynamics", "mimic"});
   }
   TiXmlElement* limit = joint.FirstChildElement("limit");
-  if (limit == nullptr) return;
+  if (limit == nullptr) {
+    if (type != "revolute" && type != "prismatic") return;
+    limit = joint.InsertEndChild(TiXmlElement("limit"))->ToElement();
+  }
   for (const char* name : {"effort", "velocity"}) {
     if (limit->Attribute(name) == nullptr) limit->SetAttribute(name, "0");
   }

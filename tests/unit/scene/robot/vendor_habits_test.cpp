@@ -105,6 +105,16 @@ TEST(VendorHabits, ALimitWithoutEffortDoesNotLimitDrives) {
               ElementsAre(HasSubstr("robot.urdf:2: 1 <limit> without")));
 }
 
+TEST(VendorHabits, AJointWithoutALimitHasNone) {
+  for (const char* type : {"revolute", "prismatic"}) {
+    const Robot robot =
+        read(link("a") + link("b") + joint("j", "a", "b", type));
+    EXPECT_EQ(robot.joints[0].max_effort, joints::Drive::kUnlimited) << type;
+    EXPECT_EQ(robot.joints[0].max_speed, joints::Drive::kUnlimited) << type;
+    EXPECT_THAT(robot.warnings, IsEmpty()) << type;
+  }
+}
+
 TEST(VendorHabits, AParentCalledWorldNeedsNoLink) {
   const Robot robot = read(link("a") + joint("j", "world", "a", "fixed"));
   EXPECT_TRUE(robot.has_world_root());
