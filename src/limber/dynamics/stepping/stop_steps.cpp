@@ -13,7 +13,7 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kSlow = 0.05;        // of omega d, at rest [-]
+constexpr double kLongest = 6.0;      // contact in half periods [-]
 constexpr double kPartGrowth = 1.25;  // of a step to the next (ImpactSteps) [-]
 constexpr double kBounce = 2.0;       // steps apart, from which it counts [-]
 

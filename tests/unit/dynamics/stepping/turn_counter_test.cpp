@@ -54,7 +54,9 @@ TEST_P(SpinningWheel, CountsItsTurnsAtAnyRate) {
 TEST_P(SpinningWheel, TakesShorterStepsWhereASpringNeedsTheTurns) {
   const double k = 400.0;  // [N m/rad]
   const RunOutcome r =
-      spin(400.0, 0.03, {{0, joints::ScalarSpring({.stiffness = k})}});
+      spin(400.0, 0.03,
+           {{0, joints::ScalarSpring(
+                    {.curve = joints::SpringCurve({.stiffness = k})})}});
   EXPECT_GT(r.statistics.halved_steps, 0);
   const double omega = std::sqrt(k);
   EXPECT_NEAR(r.state.memory[0].near[0], 400.0 / omega * std::sin(omega * 0.03),
