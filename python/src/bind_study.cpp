@@ -24,7 +24,7 @@ class StudyPlan {
  public:
   StudyPlan(const std::string& text, const fs::path& file, fs::path cache)
       : study_(study::read_study(text, file)),
-        design_(app::make_design(study_)),
+        design_(make_design(study_)),
         cache_(std::move(cache)) {}
 
   [[nodiscard]] const study::Study& study() const { return study_; }
@@ -63,7 +63,7 @@ class StudyPlan {
     const std::lock_guard once(base_mutex_);
     if (worker_) return;
     const auto lock = runs::lock_libraries();
-    const app::StudyBase base = make_base(study_, design_, cache_);
+    const app::StudyBase base = app::make_base(study_, design_, cache_);
     manifest_ = base.manifest;
     worker_ = std::make_unique<app::StudyWorker>(
         study_, cache_, base.built.known,
@@ -135,7 +135,7 @@ py::list read_rows(const study::StudyFile& file) {
 py::dict find_effects(const study::StudyFile& file) {
   const study::Study& study = file.record().study;
   const study::Effects effects =
-      app::find_effects(study, file.record().runs, file.read_rows());
+      study::find_effects(study, file.record().runs, file.read_rows());
   py::dict dict;
   for (std::size_t f = 0; f < effects.size(); ++f) {
     py::dict of;

@@ -38,7 +38,7 @@ Json to_json(const results::MotionError& error, bool has_nodes) {
 Json to_json(const scene::BasisChoice& basis) {
   Json json = Json::object();
   if (basis.eigenmodes) json["eigenmodes"] = *basis.eigenmodes;
-  const std::string sources = find_source_name(basis);
+  const std::string sources = runs::find_source_name(basis);
   if (!sources.empty()) json["sources"] = sources;
   return json;
 }

@@ -25,7 +25,7 @@ std::string describe_noise(const runs::ErrorTable& table) {
                          : "");
 }
 
-Json to_json(const runs::ColumnError& error) {
+Json describe_column(const runs::ColumnError& error) {
   return Json{{"peak", error.peak}, {"curve", error.curve}};
 }
 
@@ -53,12 +53,13 @@ Json to_json(const runs::ErrorTable& table) {
   for (const runs::ProbeErrors& probe : table.probes) {
     Json by_cause = Json::object();
     for (std::size_t i = 0; i < table.runs.size(); ++i) {
-      by_cause[table.runs[i].name] =
-          is_known(table.runs[i]) ? to_json(probe.by_cause[i]) : Json(nullptr);
+      by_cause[table.runs[i].name] = is_known(table.runs[i])
+                                         ? describe_column(probe.by_cause[i])
+                                         : Json(nullptr);
     }
     probes[probe.column] =
         Json{{"unit", probe.unit},
-             {"total", to_json(probe.total)},
+             {"total", describe_column(probe.total)},
              {"by_cause", by_cause},
              {"is_noise", probe.is_noise},
              {"adds_up", probe.adds_up ? Json(*probe.adds_up) : Json(nullptr)},

@@ -28,18 +28,18 @@ struct Choice {
 
 /// Values to combine; an empty axis means the scenario's value.
 struct Axes {
-  std::vector<dynamics::Fidelity> levels;  ///< empty: all that have a basis
-  std::vector<int> eigenmodes;             ///< numbers of eigenmodes
-  std::vector<std::string> sources;        ///< names from source_names()
-  std::vector<double> steps;               ///< [s]
+  std::vector<dynamics::Fidelity> levels = {};  ///< empty: all with a basis
+  std::vector<int> eigenmodes = {};             ///< numbers of eigenmodes
+  std::vector<std::string> sources = {};        ///< names from source_names()
+  std::vector<double> steps = {};               ///< [s]
 };
 
 /// Requested properties of the reference; by default the most expensive reduced
 /// one.
 struct ReferenceWish {
-  std::optional<dynamics::Fidelity> level;
-  std::optional<int> eigenmodes;  ///< number of eigenmodes
-  std::optional<double> step;     ///< [s]
+  std::optional<dynamics::Fidelity> level = {};
+  std::optional<int> eigenmodes = {};  ///< number of eigenmodes
+  std::optional<double> step = {};     ///< [s]
   std::optional<dynamics::IntegratorKind> integrator = {};
 };
 

@@ -61,7 +61,7 @@ TEST_F(ReleasedPendulum, SelectsTheLongerStepWithinATolerance) {
 
 TEST_F(ReleasedPendulum, GivesEachRunWithItsStatesWhileItLasts) {
   std::vector<std::size_t> states;
-  settings_.keep = [&](const Choice&, const Run& run) {
+  settings_.keep = [&](const Choice&, const runs::Run& run) {
     states.push_back(run.history.states.size());
   };
   (void)compare_runs(plan({0.01}), settings_);
