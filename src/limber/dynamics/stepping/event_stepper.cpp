@@ -48,7 +48,7 @@ EventStepper::EventStepper(const SystemModel& model,
       limits_(model),
       ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       stops_(model, settings.impact_steps / refinement),
-      turns_(model),
+      turns_(model, settings.integrator != IntegratorKind::energy_conserving),
       commit_pairs_(model),
       events_(events),
       last_flows_(make_flows(model)),
@@ -179,8 +179,12 @@ void EventStepper::attempt(SystemState& state, double h, double end) {
   events_before_ = events_.size();
   h_ = impacts_.limit(h, touches_);
   const double at_stop = stops_.limit(h, state);
-  is_at_stop_ = at_stop < h_;
-  h_ = std::min(h_, at_stop);
+  if (at_stop < h_) {
+    is_at_stop_ = true;
+    h_ = at_stop;
+  } else if (h_ < h) {
+    is_at_stop_ = false;
+  }
   touches_.check_step(h_, state.t);
   touches_.mark_apart(state);
   has_before_ = keeps_before_ || turns_.may_turn_far(state, h_);

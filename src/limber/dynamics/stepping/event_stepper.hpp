@@ -83,9 +83,9 @@ class EventStepper {
   [[nodiscard]] SystemTerms& scratch() { return terms_; }
   /// Warns once of impacts that get longer steps than resolve them.
   void add_warnings(std::vector<std::string>& warnings);
-  /// The pair whose impacts shorten steps.
+  /// The pair whose impacts shorten steps; none if stops of joints do.
   [[nodiscard]] std::optional<std::size_t> impact_pair() const {
-    if (is_at_stop_) return std::nullopt;
+    if (is_at_stop_ || joined_.empty()) return std::nullopt;
     return impacts_.fastest();
   }
   /// Which pairs touch.
@@ -146,7 +146,7 @@ class EventStepper {
   bool is_implicit_ = false;
   bool conserves_impacts_ = false;
   bool keeps_before_ = false;
-  bool is_at_stop_ = false;  // the attempted step is short for a stop
+  bool is_at_stop_ = false;  // a stop, not a pair, shortened the last steps
   bool has_before_ = false;  // the attempted step can be taken back
   SystemState before_;
   double h_ = 0.0;                 // of the attempted step [s]

@@ -28,7 +28,8 @@ bool is_in_transmission(const SystemModel& model, CouplerIndex coupler) {
 
 }  // namespace
 
-TurnCounter::TurnCounter(const SystemModel& model) : model_(model) {
+TurnCounter::TurnCounter(const SystemModel& model, bool by_rate)
+    : model_(model), by_rate_(by_rate) {
   using Kind = joints::AxisCoordinate::Kind;
   for (CouplerIndex c(0); c < std::ssize(model.couplers); ++c) {
     const auto& coordinates =
@@ -41,7 +42,7 @@ TurnCounter::TurnCounter(const SystemModel& model) : model_(model) {
 }
 
 bool TurnCounter::may_turn_far(const SystemState& state, double h) const {
-  return !angles_.empty() &&
+  return by_rate_ && !angles_.empty() &&
          std::ranges::any_of(state.bodies, [h](const BodyState& body) {
            return body.w_WB_B.norm() * h > 0.5 * kFar;
          });
@@ -58,7 +59,7 @@ std::optional<std::string> TurnCounter::count(const SystemTerms& terms,
         terms.couplers[index(angle.coupler)].motion;
     double& near = state.memory[index(angle.coupler)].near[angle.coordinate];
     const double nearest = joints::find_position(coordinate, motion, near);
-    if (!(motion.w_FM_F.norm() * h > kFar)) {
+    if (!by_rate_ || !(motion.w_FM_F.norm() * h > kFar)) {
       near = nearest;
       continue;
     }

@@ -15,7 +15,9 @@ namespace limber::dynamics {
 ///            its rate at the step's end times the step
 class TurnCounter {
  public:
-  explicit TurnCounter(const SystemModel& model);
+  /// @param by_rate whether a step's rotation follows its rate beyond half a
+  /// turn; that of energy_conserving, a Cayley transform, stays below
+  TurnCounter(const SystemModel& model, bool by_rate);
 
   /// Whether a step of h [s] may rotate a joint by more than half a turn.
   [[nodiscard]] bool may_turn_far(const SystemState& state, double h) const;
@@ -39,6 +41,7 @@ class TurnCounter {
                                       const SystemState& state) const;
 
   const SystemModel& model_;
+  bool by_rate_;
   std::vector<Angle> angles_;
 };
 
