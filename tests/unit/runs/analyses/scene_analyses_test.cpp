@@ -29,8 +29,8 @@ class HangingMass : public ::testing::Test {
             "<joint name='slide' type='prismatic'><parent link='world'/>"
             "<child link='mass'/><axis xyz='0 0 1'/>"
             "<limit lower='-1' upper='1' effort='1e4' velocity='100'/>"
-            "</joint>\n<limber><coupler joint='slide'>"
-            "<spring stiffness='800'/></coupler></limber>\n",
+            "</joint>\n<coupler joint='slide'>"
+            "<spring stiffness='800'/></coupler>\n",
         scene::test::time_table(1.0, 0.01) +
             fmt::format("[gravity]\nacceleration = [0, 0, {}]\n"
                         "[[probe]]\nname = 'sag'\njoint = 'slide'\n",
