@@ -113,9 +113,8 @@ TEST_P(AStop, TakesFewStepsForABodyThatComesToRestOnIt) {
   EXPECT_LT(r.statistics.steps, 6000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Implicit, AStop,
+INSTANTIATE_TEST_SUITE_P(OfSecondOrder, AStop,
                          ::testing::Values(IntegratorKind::generalized_alpha,
-                                           IntegratorKind::implicit_euler,
                                            IntegratorKind::energy_conserving),
                          [](const auto& param) {
                            std::string name = to_string(param.param);
