@@ -56,7 +56,7 @@ TEST(Latch, ClosesWhereTheDistanceFallsToItsReach) {
   motion.v_FM_F = Vector3(5.0, -1.0, 0.0);
   const SwitchValue value = latch.find_switch(0, motion, {}, 0.0);
   EXPECT_NEAR(value.value, 0.5 * (0.1 - 0.04 / 0.1), 1e-15);
-  EXPECT_NEAR(value.rate, 0.16 / 0.1, 1e-15);
+  EXPECT_NEAR(value.rate, 0.12 / 0.1, 1e-15);
   EXPECT_GT(latch.find_switch(0, at(Vector3(0.05, 0.05, 0.05)), {}, 0.0).value,
             0.0);
 }
