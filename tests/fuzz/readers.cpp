@@ -88,7 +88,7 @@ void read_stl(std::string_view bytes) { read_shape(bytes, "input.stl"); }
 
 void read_obj(std::string_view bytes) { read_shape(bytes, "input.obj"); }
 
-void study::read_study(std::string_view bytes) {
+void read_study(std::string_view bytes) {
   (void)study::read_study(write_input(bytes));
 }
 

@@ -115,7 +115,8 @@ Patch BallOnSurface::press(const PairBody& body,
   const Vector3 n = is_surface_A_ ? out_W : Vector3(-out_W);
   out.touches = true;
   out.exponent = 1.5;
-  out.depth = pressed.hertz_depth;
+  out.depth = depth;
+  out.series_depth = depth - pressed.hertz_depth;
   out.energy = pressed.energy();
   out.series_energy = pressed.residual_energy;
   out.centre_W =

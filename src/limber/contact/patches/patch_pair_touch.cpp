@@ -171,7 +171,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     reading.force_W += response.wrench.wrench_W.head<3>();
     normals += elastic * response.normal_W;
     pressure.add(elastic, patch.centre_W, patch.spread_W);
-    reading.depth = std::max(reading.depth, patch.depth);
+    reading.depth = std::max(reading.depth, patch.depth - patch.series_depth);
     // Of a round flat, or a ball, with this force and energy.
     const double p = patch.exponent;
     const double depth =

@@ -24,7 +24,9 @@ class Pendulum : public ::testing::Test {
         test::kWorld + test::rigid_link("bob", 2.0, 1e-3, "1 0 0") +
             "<joint name='pin' type='revolute'><parent link='world'/>"
             "<child link='bob'/><axis xyz='0 1 0'/>" +
-            limit + "</joint>\n",
+            limit +
+            "</joint>\n<coupler joint='pin' translational_stiffness='1e6' "
+            "rotational_stiffness='1e6'/>\n",
         test::time_table(0.1, 1e-3) +
             fmt::format("[gravity]\nacceleration = [0, 0, -9.81]\n"
                         "[initial]\nequilibrium = true\n"
