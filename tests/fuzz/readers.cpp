@@ -169,7 +169,7 @@ const std::vector<Reader>& all_readers() {
       {"material", read_material},
       {"stl", read_stl},
       {"obj", read_obj},
-      {"study", study::read_study},
+      {"study", read_study},
       {"body", read_body},
       {"body_content", read_edited_body},
 #ifdef LIMBER_HAS_REDUCTION
