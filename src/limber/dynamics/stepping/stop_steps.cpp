@@ -15,12 +15,13 @@ namespace {
 
 constexpr double kLongest = 6.0;      // contact in half periods [-]
 constexpr double kPartGrowth = 1.25;  // of a step to the next (ImpactSteps) [-]
-constexpr double kBounce = 2.0;       // steps apart, from which it counts [-]
+constexpr double kBounce = 0.5;       // steps away, below which it rests [-]
+constexpr double kHeight = 0.01;      // of the tolerance, likewise [-]
 
 }  // namespace
 
-StopSteps::StopSteps(const SystemModel& model, double steps)
-    : model_(model), steps_(steps) {
+StopSteps::StopSteps(const SystemModel& model, double steps, double tolerance)
+    : model_(model), steps_(steps), tolerance_(tolerance) {
   if (model.nodal_count > 0) return;
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto* joint = std::get_if<joints::Joint>(&model.couplers[c].law);
@@ -36,6 +37,7 @@ StopSteps::StopSteps(const SystemModel& model, double steps)
           end.place = place + side;
           end.stiffness = p.stiffness;
           end.damping = p.damping;
+          end.outwards = side == 0 ? 1.0 : -1.0;
           if (std::isfinite(side == 0 ? p.upper : p.lower)) {
             ends_.push_back(end);
           }
@@ -72,27 +74,23 @@ void StopSteps::update(End& end, double h, const SystemState& state) {
   const joints::CouplerMemory& memory = state.memory[end.coupler];
   const bool was_on = end.is_on;
   end.is_on = memory.switches[end.place] == joints::SwitchMode::on;
-  if (!end.is_on) {
-    if (was_on) end.left = state.t;
-    end.counts = false;
-    return;
-  }
-  if (!was_on) {
-    end.counts = state.t - end.left > kBounce * h;
+  if (end.is_on && !was_on) {
     end.reached = state.t;
-    if (end.counts) end.frequency = find_frequency(end, h, state);
+    begin(end, h, state);
   }
   const double halves =
       (state.t - end.reached) * end.frequency / std::numbers::pi;
-  end.counts = end.counts && halves < kLongest;
+  end.counts = end.counts && end.is_on && halves < kLongest;
 }
 
-double StopSteps::find_frequency(const End& end, double h,
-                                 const SystemState& state) {
+void StopSteps::begin(End& end, double h, const SystemState& state) {
   constexpr int kMostRepeats = 8;
   constexpr double kNear = 0.1;  // relative change [-]
   apart_ = state;
-  apart_.memory[end.coupler].switches[end.place] = joints::SwitchMode::off;
+  for (const End& other : ends_) {
+    apart_.memory[other.coupler].switches[other.place] =
+        joints::SwitchMode::off;
+  }
   calc_terms(model_, apart_, Side::left, terms_);
   for (joints::PairResponse& response : terms_.pairs.responses) {
     response.clear();
@@ -102,11 +100,15 @@ double StopSteps::find_frequency(const End& end, double h,
   const joints::CoordinateValue value =
       joints::evaluate(joints::coordinates_of(coupler.law)[end.coordinate],
                        motion, state.memory[end.coupler].near[end.coordinate]);
+  const double rate = std::abs(value.rate);
+  const double against = end.outwards * find_acceleration(end);
+  end.counts = !(2.0 * rate < kBounce * h * against) &&
+               !(rate * rate < 2.0 * against * kHeight * tolerance_);
+  if (!end.counts) return;
   clear_forces(model_, terms_);
   add_coupler_wrench(model_, coupler, value.gradient, motion.p_FM_F, terms_);
   calc_residual(model_, no_motion_, terms_, residual_);
-  const double stiffness =
-      end.stiffness * (1.0 + end.damping * std::abs(value.rate));
+  const double stiffness = end.stiffness * (1.0 + end.damping * rate);
   double omega = std::numbers::pi / (steps_ * h);
   for (int i = 0; i < kMostRepeats; ++i) {
     matrix_.factor(model_, apart_, terms_, no_motion_, {omega * omega, omega},
@@ -117,13 +119,34 @@ double StopSteps::find_frequency(const End& end, double h,
     omega = std::sqrt(std::max(stiffness * mobility, 0.0));
     if (!(std::abs(omega - last) > kNear * last)) break;
   }
-  return omega;
+  end.frequency = omega;
+}
+
+// Of the joint's coordinate without stops, at the evaluated terms; without what
+// depends on its rate.
+double StopSteps::find_acceleration(const End& end) {
+  solve_accelerations(model_, terms_, increments_);
+  moving_ = apart_;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    moving_.bodies[b].v_WB_W = translation_rows(body, increments_);
+    moving_.bodies[b].w_WB_B = rotation_rows(body, increments_);
+    moving_.etadot.segment(body.offset, body.modes) =
+        mode_rows(body, increments_);
+  }
+  const auto& coordinates =
+      joints::coordinates_of(model_.couplers[end.coupler].law);
+  return joints::evaluate(
+             coordinates[end.coordinate],
+             find_relative_motion(model_, moving_, CouplerIndex(end.coupler)),
+             moving_.memory[end.coupler].near[end.coordinate])
+      .rate;
 }
 
 void StopSteps::exchange_memory(Archive& archive) {
   archive(longest_);
   for (End& end : ends_) {
-    archive(end.is_on, end.counts, end.frequency, end.reached, end.left);
+    archive(end.is_on, end.counts, end.frequency, end.reached);
   }
 }
 

@@ -63,9 +63,12 @@ std::optional<std::string> TurnCounter::count(const SystemTerms& terms,
       near = nearest;
       continue;
     }
-    const double rate = joints::evaluate(coordinate, motion, near).rate;
+    // The terms of some schemes are those of the step's begin.
+    const joints::RelativeMotion end =
+        find_relative_motion(model_, state, angle.coupler);
+    const double rate = joints::evaluate(coordinate, end, near).rate;
     const double counted =
-        joints::find_position(coordinate, motion, near + h * rate);
+        joints::find_position(coordinate, end, near + h * rate);
     if (std::abs(counted - nearest) > kHalfTurn &&
         depends_on_turns(angle, counted, terms, state)) {
       return fmt::format(

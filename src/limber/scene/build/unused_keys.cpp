@@ -23,6 +23,7 @@ class Finder {
       : file_(file),
         scenario_(scene.scenario),
         links_(scene.robot.links),
+        joints_(scene.robot.joints),
         robot_file_(scene.robot.file.filename().string()),
         touching_(scene.touching),
         overrides_(overrides) {}
@@ -58,6 +59,16 @@ class Finder {
     if (has(table, key)) warn(fmt::format("[{}] {}", table, key), why);
   }
 
+  [[nodiscard]] bool has_stop() const {
+    return std::any_of(joints_.begin(), joints_.end(), [](const Joint& joint) {
+      return std::any_of(
+          joint.actions.begin(), joint.actions.end(),
+          [](const JointAction& action) {
+            return std::holds_alternative<StopOptions>(action.law);
+          });
+    });
+  }
+
   [[nodiscard]] bool is_any_flexible() const {
     return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
       return link.flexible.has_value();
@@ -84,8 +95,8 @@ class Finder {
       warn("time", "newton_tolerance", why);
       warn("time", "newton_iterations", why);
     }
-    if (scenario_.contacts.empty()) {
-      warn("time", "impact_steps", "there is no contact");
+    if (scenario_.contacts.empty() && !has_stop()) {
+      warn("time", "impact_steps", "there is no contact and no end stop");
     }
     if (time.tolerance == 0.0) {
       warn("time", "most_steps", "it applies only to steps by a tolerance");
@@ -336,6 +347,7 @@ class Finder {
   const toml::table& file_;
   const Scenario& scenario_;
   const std::vector<Link>& links_;
+  const std::vector<Joint>& joints_;
   std::string robot_file_;
   const std::vector<TouchingPair>& touching_;
   const Overrides& overrides_;

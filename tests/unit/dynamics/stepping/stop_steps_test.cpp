@@ -87,6 +87,49 @@ TEST_P(AStop, OfAShaftGivesBackItsRestitution) {
   EXPECT_NEAR(r.state.bodies[0].w_WB_B.z(), -0.4 * kSpeed, 0.01);
 }
 
+// A body with 1 mm of play between two stops, which it crosses within a step.
+TEST_P(AStop, AndAnotherGiveBackTheirRestitutionToABodyBetweenThem) {
+  const auto rattle = [](double step) {
+    SystemBuilder builder;
+    const Mass mass = add_mass(builder, "body", 2.0);
+    add_rail(
+        builder, mass, "rail",
+        {{0, EndStop({.lower = -5e-4,
+                      .upper = 5e-4,
+                      .stiffness = 1e7,
+                      .damping = joints::find_stop_damping(0.7, kSpeed)})}});
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    state.bodies[0].v_WB_W.x() = kSpeed;
+    SimulationSettings settings = make_settings(GetParam(), 0.0123);
+    settings.step = step;
+    return run_from(model, state, settings).state.bodies[0].v_WB_W.x();
+  };
+  EXPECT_NEAR(rattle(0.01), rattle(1e-6), 0.01);
+}
+
+// Two shafts in gear that reach their stops together, at the end of a step.
+TEST_P(AStop, OfEachOfTwoGearedShaftsGivesBackItsRestitution) {
+  SystemBuilder builder;
+  std::vector<CouplerIndex> shafts;
+  for (const char* name : {"left", "right"}) {
+    const Mass wheel = add_mass(builder, name, 2.0);
+    shafts.push_back(add_shaft(builder, wheel, std::string(name) + " shaft",
+                               {{0, make_stop(0.5, 1e7)}}));
+  }
+  builder.add_joint_sum(
+      "gear", JointSum{{{shafts[0], 0, 1.0}, {shafts[1], 0, -1.0}}, 0.0},
+      {joints::ScalarSpring(
+          {.curve = joints::SpringCurve({.stiffness = 1e5})})});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  for (BodyState& body : state.bodies) body.w_WB_B.z() = kSpeed;
+  const RunOutcome r = run_from(model, state, make_settings(GetParam(), 0.08));
+  for (const BodyState& body : r.state.bodies) {
+    EXPECT_NEAR(body.w_WB_B.z(), -0.5 * kSpeed, 0.01);
+  }
+}
+
 TEST(AStopOfARun, GivesBackItsRestitutionInStepsToATolerance) {
   SystemBuilder builder;
   const Mass mass = add_mass(builder, "body", 2.0);
