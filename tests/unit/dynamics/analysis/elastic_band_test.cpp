@@ -164,7 +164,7 @@ TEST(LossFactor, LinearModelHasTheSameEigenvalues) {
       .maxwell = flexbody::find_maxwell_elements(kLossFactor, {20.0, 200.0})};
   testing::Chain chain = make_free_chain(2, damping);
   const SystemModel model = hold(chain);
-  chain.state.maxwell = VectorX::Zero(model.maxwell_count);
+  chain.state.memory = make_state(model).memory;
   const NaturalModes found = find_natural_modes(model, chain.state);
   const LinearSystem linear = linearise(model, chain.state);
   EXPECT_EQ(linear.A.rows(), 2 * (12 + 6) + model.maxwell_count);
