@@ -118,12 +118,13 @@ TEST_F(StructureContact, OfABallOnAPlateIsThatOfZener) {
               0.03 * zener.duration);
 }
 
+// To what the beginning of a touch is found within: 1e-4 of a step's motion.
 TEST_F(StructureContact, OnTheOtherSideIsTheSame) {
   const json top = strike("Plate.top", 1.0)["contacts"][0];
   const json bottom = strike("Plate.bottom", -1.0)["contacts"][0];
   for (const char* key : {"time", "peak_force", "impulse"})
     EXPECT_NEAR(bottom[key].get<double>(), top[key].get<double>(),
-                1e-6 * top[key].get<double>())
+                1e-5 * top[key].get<double>())
         << key;
 }
 
