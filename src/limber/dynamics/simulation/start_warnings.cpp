@@ -11,6 +11,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/equations/coordinate_acceleration.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
@@ -95,17 +96,10 @@ double find_acceleration(const SystemModel& model, const SystemState& state,
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
   VectorX accelerations = make_unknowns(model);
-  solve_accelerations(model, terms, accelerations);
-  SystemState after_unit_time = state;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    BodyState& rigid = after_unit_time.bodies[b];
-    rigid.v_WB_W = translation_rows(body, accelerations);
-    rigid.w_WB_B = rotation_rows(body, accelerations);
-    after_unit_time.etadot.segment(body.offset, body.modes) =
-        mode_rows(body, accelerations);
-  }
-  return evaluate_coordinate(model, after_unit_time, c, coordinate).motion.rate;
+  SystemState moving;
+  return find_coordinate_acceleration(model, state, terms, c,
+                                      static_cast<std::size_t>(coordinate),
+                                      accelerations, moving);
 }
 
 // Whether a joint at rest beyond its stops stays there, as at an equilibrium.

@@ -376,7 +376,7 @@ void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   touches_.exchange_memory(archive);
   impacts_.exchange_memory(archive);
   stops_.exchange_memory(archive);
-  archive(cut_, losses_.work, losses_.dissipated, flows_);
+  archive(cut_, is_at_stop_, losses_.work, losses_.dissipated, flows_);
   if (keeps_before_) before_ = state;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/equations/coordinate_acceleration.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
@@ -101,7 +102,10 @@ void StopSteps::begin(End& end, double h, const SystemState& state) {
       joints::evaluate(joints::coordinates_of(coupler.law)[end.coordinate],
                        motion, state.memory[end.coupler].near[end.coordinate]);
   const double rate = std::abs(value.rate);
-  const double against = end.outwards * find_acceleration(end);
+  const double against =
+      end.outwards * find_coordinate_acceleration(
+                         model_, apart_, terms_, CouplerIndex(end.coupler),
+                         end.coordinate, increments_, moving_);
   end.counts = !(2.0 * rate < kBounce * h * against) &&
                !(rate * rate < 2.0 * against * kHeight * tolerance_);
   if (!end.counts) return;
@@ -120,27 +124,6 @@ void StopSteps::begin(End& end, double h, const SystemState& state) {
     if (!(std::abs(omega - last) > kNear * last)) break;
   }
   end.frequency = omega;
-}
-
-// Of the joint's coordinate without stops, at the evaluated terms; without what
-// depends on its rate.
-double StopSteps::find_acceleration(const End& end) {
-  solve_accelerations(model_, terms_, increments_);
-  moving_ = apart_;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    moving_.bodies[b].v_WB_W = translation_rows(body, increments_);
-    moving_.bodies[b].w_WB_B = rotation_rows(body, increments_);
-    moving_.etadot.segment(body.offset, body.modes) =
-        mode_rows(body, increments_);
-  }
-  const auto& coordinates =
-      joints::coordinates_of(model_.couplers[end.coupler].law);
-  return joints::evaluate(
-             coordinates[end.coordinate],
-             find_relative_motion(model_, moving_, CouplerIndex(end.coupler)),
-             moving_.memory[end.coupler].near[end.coordinate])
-      .rate;
 }
 
 void StopSteps::exchange_memory(Archive& archive) {

@@ -55,7 +55,6 @@ class StopSteps {
   void update(End& end, double h, const SystemState& state);
   // A strike at a state: whether it counts, and its frequency.
   void begin(End& end, double h, const SystemState& state);
-  [[nodiscard]] double find_acceleration(const End& end);
 
   const SystemModel& model_;
   double steps_;
